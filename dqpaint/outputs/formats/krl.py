@@ -4,13 +4,19 @@ mm and deg; A, B, C turn about z, the new y and the new x. A plain output would 
 run, and with it the arm, so the light's outputs are set by triggers on the path.
 """
 
-import re
-
 import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.outputs.robot import GEOMETRIC, Move, Moves, comment_lines, for_arm, moves_of
+from dqpaint.outputs.robot import (
+    GEOMETRIC,
+    Move,
+    Moves,
+    comment_lines,
+    for_arm,
+    moves_of,
+    program_name,
+)
 
 LONGEST_NAME = 24
 SMALLEST_TURN = 1.0  # [deg/s] to be asked of a tool that is held
@@ -19,7 +25,7 @@ SMALLEST_TURN = 1.0  # [deg/s] to be asked of a tool that is held
 @for_arm("krl", ".src", *GEOMETRIC, made_of=moves_of)
 def krl(program: Moves) -> str:
     """A program for KUKA's controllers: lines and arcs, light along the path."""
-    name = ("dqpaint_" + re.sub(r"\W", "_", program.trajectory.name, flags=re.ASCII))[:LONGEST_NAME]
+    name = program_name(program.trajectory.name, LONGEST_NAME)
     notes = (
         f"KRL: save it as {name}.src. Red, green and blue are $ANOUT[1] to [3], 0 to 1.",
         f"$TOOL is the light on the link {program.link}; its flange may be turned on your arm.",

@@ -3,13 +3,19 @@
 mm, and quaternions with the scalar first.
 """
 
-import re
-
 import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.outputs.robot import GEOMETRIC, Move, Moves, comment_lines, for_arm, moves_of
+from dqpaint.outputs.robot import (
+    GEOMETRIC,
+    Move,
+    Moves,
+    comment_lines,
+    for_arm,
+    moves_of,
+    program_name,
+)
 
 LONGEST_NAME = 32
 OUTPUTS = ("aoRed", "aoGreen", "aoBlue")
@@ -20,7 +26,7 @@ NONE = "[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]"  # configuration, unchecked; no oth
 @for_arm("rapid", ".mod", *GEOMETRIC, made_of=moves_of)
 def rapid(program: Moves) -> str:
     """A program for ABB's controllers: lines and arcs, light along the path."""
-    name = ("dqpaint_" + re.sub(r"\W", "_", program.trajectory.name, flags=re.ASCII))[:LONGEST_NAME]
+    name = program_name(program.trajectory.name, LONGEST_NAME)
     notes = (
         f"RAPID: the light is on the analog outputs {', '.join(OUTPUTS)}, 0 to 1; they must exist.",
         f"lamp is the light on the link {program.link}; its flange may be turned on your arm, and "

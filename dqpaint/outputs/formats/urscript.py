@@ -4,12 +4,17 @@ servoj takes the posture to be in a given time, which keeps the drawing's clock;
 movep have profiles of their own, and the light would come too early or too late.
 """
 
-import re
 from typing import TYPE_CHECKING
 
 from dqpaint.errors import UsageError
 from dqpaint.outputs.registry import Need
-from dqpaint.outputs.robot import Trajectory, comment_lines, for_arm, kinematics_of
+from dqpaint.outputs.robot import (
+    Trajectory,
+    comment_lines,
+    for_arm,
+    kinematics_of,
+    program_name,
+)
 
 if TYPE_CHECKING:
     from dqpaint.painting import paint
@@ -47,7 +52,7 @@ SERVOJ = Need(
 @for_arm("urscript", ".script", SERVOJ)
 def urscript(trajectory: Trajectory) -> str:
     """A program for a Universal Robots arm: movej to the first posture, then servoj."""
-    name = "dqpaint_" + re.sub(r"\W", "_", trajectory.name, flags=re.ASCII)
+    name = program_name(trajectory.name)
     notes = ("servoj: joints [rad], a and v unused, time [s], lookahead [s], gain.",)
     step = f"0, 0, {trajectory.period:.9g}, {LOOKAHEAD}, {GAIN}"
     postures = [

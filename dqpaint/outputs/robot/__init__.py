@@ -8,10 +8,10 @@ A new format is a function in a new file of `outputs.formats` under `@for_arm(na
 from dqpaint.outputs.robot.lamp_table import LampTable, lamp_table
 from dqpaint.outputs.robot.moves import GEOMETRIC, Move, Moves, moves_of
 from dqpaint.outputs.robot.trajectory import (
-    Trajectory, comment_lines, for_arm, kinematics_of, trajectory_of,
+    Trajectory, comment_lines, for_arm, kinematics_of, program_name, trajectory_of,
 )
 
 __all__ = [
     "GEOMETRIC", "LampTable", "Move", "Moves", "Trajectory", "comment_lines", "for_arm",
-    "kinematics_of", "lamp_table", "moves_of", "trajectory_of",
+    "kinematics_of", "lamp_table", "moves_of", "program_name", "trajectory_of",
 ]

@@ -1,6 +1,7 @@
 """A painting's run -> a joint trajectory: times, angles, rates and a description."""
 
 import hashlib
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -141,6 +142,11 @@ def kinematics_of(run: "paint.PreparedRun | paint.Painting") -> "Kinematics":
 
     settings = run.settings
     return Kinematics(card_for(run.motion.program, settings.robot, settings.tool))
+
+
+def program_name(drawing: str, longest: int | None = None) -> str:
+    """The name of a drawing as a controller's language has names; cut where that has a limit."""
+    return ("dqpaint_" + re.sub(r"\W", "_", drawing, flags=re.ASCII))[:longest]
 
 
 def comment_lines(about: tuple[str, ...], mark: str = "#") -> str:

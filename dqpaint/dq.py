@@ -99,22 +99,27 @@ def _in_blocks(formula: Callable[..., None], width: int, *arrays: Floats) -> Flo
         return few
     shape = np.broadcast_shapes(*(array.shape[:-1] for array in arrays))
     rows = [
-        np.broadcast_to(array, (*shape, array.shape[-1])).reshape(-1, array.shape[-1])
+        np.ascontiguousarray(
+            np.broadcast_to(array, (*shape, array.shape[-1])), dtype=np.float64
+        ).reshape(-1, array.shape[-1])
         for array in arrays
     ]
     out = np.empty((len(rows[0]), width))
     for begin in range(0, len(out), BLOCK):
         own = slice(begin, begin + BLOCK)
-        formula(out[own], *(np.asarray(row[own], dtype=np.float64) for row in rows))
+        formula(out[own], *[row[own] for row in rows])
     return out.reshape(*shape, width)
+
+
+def _complex_columns(x: Floats) -> NDArray[np.complex128]:
+    """The columns (4, N) of numbers (N, 8), which lie in one piece, as pairs; each in one piece."""
+    return np.ascontiguousarray(x.view(np.complex128).T)
 
 
 def _mul(out: Floats, a: Floats, b: Floats) -> None:
     """Products (N, 8), as `quaternion_mul` with pairs of complex numbers."""
-    (p0, p1, d0, d1), (q0, q1, e0, e1) = (
-        np.ascontiguousarray(np.ascontiguousarray(x).view(np.complex128).T) for x in (a, b)
-    )
-    c0, c1, f0, f1 = (x.conj() for x in (q0, q1, e0, e1))
+    first, second = _complex_columns(a), _complex_columns(b)
+    (p0, p1, d0, d1), (q0, q1, e0, e1), (c0, c1, f0, f1) = first, second, second.conj()
     columns = out.view(np.complex128).T
     columns[0] = p0 * q0 - p1 * c1
     columns[1] = p0 * q1 + p1 * c0

@@ -128,7 +128,10 @@ def _jump(corner: _Corner, count: int) -> Diagnostic:
 def slow_strokes(table: Schedule) -> Iterator[Diagnostic]:
     """W411: the stroke that is farthest below its cruise speed."""
     firsts = table.firsts
-    speed = np.array([s.timing.speed if isinstance(s.timing, CruiseSpeed) else 0.0 for s in firsts])
+    speed, most = np.array([
+        (s.timing.speed, s.timing.turnspeed) if isinstance(s.timing, CruiseSpeed) else (0.0, 1.0)
+        for s in firsts
+    ]).T  # fmt: skip
     lit = np.array([segment.light is not None for segment in table.program.segments])
     lit_strokes = np.logical_or.reduceat(lit, table.first)
     curves = np.array([isinstance(segment.path, PiecewiseCurve) for segment in firsts])
@@ -136,8 +139,6 @@ def slow_strokes(table: Schedule) -> Iterator[Diagnostic]:
     reached = peak * table.length / time
     below = (speed > 0.0) & (table.length > 0.0) & lit_strokes & (reached < REACHED * speed)
     turning = np.add.reduceat(table.shapes.angle, table.first)
-    most = np.array([s.timing.turnspeed if isinstance(s.timing, CruiseSpeed) else 1.0
-                     for s in firsts])  # fmt: skip
     # with look-ahead others are as fast as their acceleration allows
     below &= (table.paced < 0) | (turning * speed > table.length * most)
     least = np.divide(peak * table.length, speed, out=np.zeros_like(time), where=speed > 0.0)

@@ -136,7 +136,7 @@ class Schedule:
 
     def progress(self, stroke: Indices, tau: Floats) -> Progress:
         """The progress of strokes (N,) at fractions tau (N,) of their times, per second."""
-        value, rate, slope = np.empty((3, len(tau)))
+        value, rate, slope = np.zeros((3, len(tau)))  # rows with look-ahead are filled last
         kind = np.full(len(self), -1)
         profiles = list(self.profiles())
         for number, (_, _, strokes) in enumerate(profiles):

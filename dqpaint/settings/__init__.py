@@ -1,6 +1,6 @@
 """Options, a settings file or a run's summary -> checked settings of one painting.
 
-A new setting is a field of a group in `model`, with its `Option`: command line, Python, settings
+A new setting is a field of a group in `groups`, with its `Option`: command line, Python, settings
 files and documents read it from there.
 """
 
@@ -9,9 +9,10 @@ from dqpaint.settings.declaration import Option, Setting, settings_of
 from dqpaint.settings.file import (
     READABLE, RUN_SCHEMA, Code, SettingsFile, Trusted, beside, check_code, read_given,
 )
+from dqpaint.settings.groups import DEFAULT_CONTROLLER, SMALLEST
 from dqpaint.settings.keywords import check_keywords, keywords
 from dqpaint.settings.model import (
-    DEFAULT_CONTROLLER, SETTINGS, SMALLEST, Settings, check_recorded, make_settings, read_choices,
+    SETTINGS, Settings, check_recorded, make_settings, read_choices,
     validated,
 )
 from dqpaint.settings.options import (

@@ -1,7 +1,6 @@
 """Command -> the groups of settings that it takes, on the command line and in Python alike."""
 
-from dqpaint.settings.model import (
-    GROUPS,
+from dqpaint.settings.groups import (
     ArmSettings,
     CameraSettings,
     ColourSettings,
@@ -17,6 +16,7 @@ from dqpaint.settings.model import (
     OcclusionSettings,
     TimeSettings,
 )
+from dqpaint.settings.model import GROUPS
 
 OF_RUN: tuple[type[Group], ...] = (
     LawSettings, DisturbanceSettings, ArmSettings, MotionSettings, TimeSettings, DrawingSettings,

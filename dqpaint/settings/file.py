@@ -23,8 +23,8 @@ from dqpaint import __version__
 from dqpaint.core import choice_name, examples_folder, find_file, read_regular, split_spec
 from dqpaint.diagnostics import closest
 from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.settings.groups import DEFAULT_CONTROLLER
 from dqpaint.settings.model import (
-    DEFAULT_CONTROLLER,
     SETTINGS,
     Settings,
     checked,

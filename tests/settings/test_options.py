@@ -74,7 +74,7 @@ def test_one_option_is_one_place(tmp_path):
     that takes the group, to Python and to files."""
     shutil.copytree(PACKAGE, tmp_path / "dqpaint")
     shutil.copytree(PACKAGE.parent / "trajectories", tmp_path / "dqpaint/trajectories")
-    model = tmp_path / "dqpaint/settings/model.py"
+    model = tmp_path / "dqpaint/settings/groups.py"
     text = model.read_text("utf-8")
     assert text.count("    on_limit:") == 1
     model.write_text(text.replace("    on_limit:", NEW), "utf-8")

@@ -1,5 +1,6 @@
 """The same study on a local Dask cluster of two workers, one of which is killed."""
 
+import gc
 import json
 import os
 import signal
@@ -139,3 +140,18 @@ def test_a_missing_extra_is_told(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(DqpaintError, match=r"pip install 'dqpaint\[cluster\]'"):
         dask_pool.Cluster(tmp_path, "tcp://127.0.0.1:9")
+
+
+def test_a_client_that_failed_is_gone_before_the_next_one_starts(tmp_path, monkeypatch):
+    from distributed import Client
+
+    monkeypatch.setattr(dask_pool, "ANSWER_TIMEOUT", 1.0)
+    gc.collect()
+    before = sum(isinstance(one, Client) for one in gc.get_objects())
+    gc.disable()
+    try:
+        with pytest.raises(DqpaintError):
+            dask_pool.Cluster(tmp_path, "tls://127.0.0.1:9")
+        assert sum(isinstance(one, Client) for one in gc.get_objects()) == before
+    finally:
+        gc.enable()

@@ -15,7 +15,7 @@ from dqpaint.motion import stroke_errors
 from dqpaint.painting import film_file
 from dqpaint.robots.loading import load_file
 from dqpaint.robots.urdf import meshes, tree
-from dqpaint.settings import file, model
+from dqpaint.settings import file, groups
 from dqpaint.studies.kinds import sweep
 
 MB = 1e6
@@ -45,9 +45,9 @@ def rows():
         ("flashes of a strobe or a PWM", from_motion.MOST_FLASHES, ""),
         ("how long a drawing takes", stroke_errors.MOST_SECONDS, "s"),
         ("samples of a drawing", DEFAULT_MAX_SAMPLES, "", "`--max-samples`"),
-        ("memory of a painting, as forecast", model.DEFAULT_MEMORY, "GB", "`--max-memory`"),
-        ("how long a run takes", model.DEFAULT_TIMEOUT, "s", "`--timeout`"),
-        ("a side of a picture", model.LARGEST, "px"),
+        ("memory of a painting, as forecast", groups.DEFAULT_MEMORY, "GB", "`--max-memory`"),
+        ("how long a run takes", groups.DEFAULT_TIMEOUT, "s", "`--timeout`"),
+        ("a side of a picture", groups.LARGEST, "px"),
         ("views of an orbit", views.MOST_ORBIT_VIEWS, ""),
         ("a film", film_file.LARGEST_FILE / MB, "MB"),
         ("its arrays, unpacked", film_file.LARGEST_UNPACKED / MB, "MB"),

@@ -11,6 +11,7 @@ how TLS keeps others out.
 """
 
 import atexit
+import gc
 import hashlib
 import logging
 import platform
@@ -67,24 +68,9 @@ class Cluster:
             raise UsageError(
                 f"'{address}' is no address of a Dask scheduler, such as tls://10.0.0.1:8786"
             )
-        try:
-            from distributed import Client
-        except ImportError:
-            raise DqpaintError(
-                "a study on a cluster needs Dask: pip install 'dqpaint[cluster]'"
-            ) from None
         self._folder, self._address = folder, address
         self.notes = warnings_of(address)
-        for name in [n for n in logging.root.manager.loggerDict if n.startswith("distributed")]:
-            logging.getLogger(name).setLevel(logging.CRITICAL)  # what matters is told by us
-        try:
-            self._client: Any = Client(address, timeout=ANSWER_TIMEOUT, set_as_default=False)
-        except (OSError, ValueError, TypeError) as problem:
-            said = str(problem).splitlines()[0] if str(problem) else type(problem).__name__
-            keys = f"; {TLS}" if address.startswith(("tls://", "wss://")) else ""
-            raise DqpaintError(
-                f"no Dask scheduler answers at '{address}': {said}{keys}; to start one: {START}"
-            ) from None
+        self._client: Any = _connected(address)
         try:
             self._check_workers()
         except BaseException:
@@ -189,6 +175,29 @@ def warnings_of(address: str) -> tuple[str, ...]:
     return (
         f"'{address}' has no TLS: who reaches the ports of this cluster can read the runs and run "
         "code on its machines; see SECURITY.md",
+    )
+
+
+def _connected(address: str) -> Any:
+    """A client of the scheduler at an address; errors as those of `Cluster`."""
+    try:
+        from distributed import Client
+    except ImportError:
+        raise DqpaintError(
+            "a study on a cluster needs Dask: pip install 'dqpaint[cluster]'"
+        ) from None
+    for name in [n for n in logging.root.manager.loggerDict if n.startswith("distributed")]:
+        logging.getLogger(name).setLevel(logging.CRITICAL)  # what matters is told by us
+    try:
+        return Client(address, timeout=ANSWER_TIMEOUT, set_as_default=False)
+    except (OSError, ValueError, TypeError) as problem:
+        said = str(problem).splitlines()[0] if str(problem) else type(problem).__name__
+    # The client that failed stops its thread when it is collected. Were that in the thread of the
+    # next client, which starts under the same lock, both would wait for each other.
+    gc.collect()
+    keys = f"; {TLS}" if address.startswith(("tls://", "wss://")) else ""
+    raise DqpaintError(
+        f"no Dask scheduler answers at '{address}': {said}{keys}; to start one: {START}"
     )
 
 

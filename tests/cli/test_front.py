@@ -174,6 +174,7 @@ def test_only_one_file_goes_to_standard_output(words, dqpaint, line):
     assert "--out -" in done.stderr
 
 
+@pytest.mark.slow
 def test_quiet_and_verbose(dqpaint, line, tmp_path):
     quiet = draws(dqpaint, "-q")
     assert (quiet.returncode, quiet.stdout, quiet.stderr) == (0, "", "")
@@ -257,6 +258,7 @@ def completed(*words, cwd):
     return done.stdout.split()
 
 
+@pytest.mark.slow
 def test_the_tab_key(tmp_path):
     (tmp_path / "mine.traj").write_text(LINE)
     (tmp_path / "notes.txt").write_text("")
@@ -286,6 +288,7 @@ def test_completers_know_the_registries(tmp_path, monkeypatch):
         assert complete("")
 
 
+@pytest.mark.slow
 def test_the_doctor_s_report(answer):
     report = json.loads(answer("doctor", "--json").stdout)
     assert all(report["works"].values())
@@ -314,6 +317,7 @@ def test_the_doctor_sees_what_is_missing_and_what_is_broken(tmp_path, monkeypatc
     assert "no libfoo.so" in found[2].fault
 
 
+@pytest.mark.slow
 def test_without_an_engine_the_doctor_says_what_is_left(monkeypatch):
     monkeypatch.setattr(doctor, "ENGINES", (doctor.Library("no_engine", ("x",), "plants"),))
     works = doctor.examine()["works"]

@@ -43,6 +43,7 @@ def follow(name, disturbance, seconds=8.0, period=PERIOD, noise=None, **gains):
 SIZE = np.array([0.1, 0.0, 0.05, 0.02, 0.0, 0.01])
 
 
+@pytest.mark.slow
 def test_pi_leaves_nothing_of_a_constant_twist_where_others_leave_v_over_k():
     pi = follow("pi", lambda _t: SIZE)
     log = follow("log", lambda _t: SIZE)
@@ -80,6 +81,7 @@ def slow_sine(t):
     return SIZE * np.sin(2 * t)
 
 
+@pytest.mark.slow
 def test_super_twisting_is_exact_where_pi_is_not_and_chatters():
     """L T^2 is left of a sine: 1e-3 mm at 2 ms where `pi` leaves a millimetre."""
     errors = {name: follow(name, slow_sine)[-2000:] for name in ("pi", "super-twisting")}
@@ -122,6 +124,7 @@ def accelerated(x_d, x, disturbance=None, seconds=1.5, h=5e-4, **gains):
     return np.array(zs), np.array(ss), h * np.arange(len(zs))
 
 
+@pytest.mark.slow
 def test_sliding_s_error_dies_at_lambda_on_its_own_screw(rng):
     x, x_d = random_poses(rng, 2)
     x_d = dq.nearest(x_d, x)
@@ -133,6 +136,7 @@ def test_sliding_s_error_dies_at_lambda_on_its_own_screw(rng):
     np.testing.assert_allclose(way, np.broadcast_to(way[-1], way.shape), atol=2e-3)
 
 
+@pytest.mark.slow
 def test_sliding_bounds_a_disturbance_where_accel_s_gains_yield(rng):
     x_d = random_poses(rng, 1)[0]
     size = np.array([1.0, 0.5, 0.0, 0.3, 0.2, 0.1])
@@ -227,6 +231,7 @@ def test_what_is_learned_is_the_cheapest_change_and_turns_nothing(rng):
     np.testing.assert_allclose(free @ (u / usual**2), 0, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_the_second_star_of_a_bent_arm_is_straight():
     """Thirty times as straight as without; both begin as far off."""
     worst = {}

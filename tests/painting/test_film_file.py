@@ -174,6 +174,7 @@ def test_a_film_is_bounded_before_it_is_unpacked(tmp_path, monkeypatch, fits):
         film_file.encode(painting.scene, painting.settings)
 
 
+@pytest.mark.slow
 def test_a_bomb_of_a_film_is_not_inflated(tmp_path):
     """A megabyte of file, a gigabyte of zeros."""
     path = tmp_path / "a.npz"

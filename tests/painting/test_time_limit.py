@@ -23,6 +23,7 @@ def test_what_sleeps_is_ended_and_what_is_in_time_is_not():
     time.sleep(2 * SHORT)  # no signal comes afterwards
 
 
+@pytest.mark.slow
 def test_what_catches_everything_meets_it_again():
     with limit_time(SHORT):
         for _ in range(2):
@@ -59,6 +60,7 @@ def test_a_law_that_sleeps_is_named_and_nothing_is_written(tmp_path, monkeypatch
         )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_law_that_is_slow_and_deaf_is_ended_between_two_steps(tmp_path):
     (tmp_path / "law.py").write_text(
         "import time\n\ndef law(seen, k=1.0):\n    end = time.monotonic() + 0.02\n"

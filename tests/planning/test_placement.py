@@ -249,6 +249,7 @@ def test_a_place_that_leaves_little_is_called_poor(placed, changed, poor):
     assert replace(placed, **changed).figures.startswith("a poor place: ") == poor
 
 
+@pytest.mark.slow
 def test_the_speeds_of_a_place_count(arm):
     """The place of the slow drawing is worse for the fast one than its own, and called poor."""
     line = "place auto\nline to (0, 300) mm in {} s\n"

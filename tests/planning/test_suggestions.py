@@ -59,6 +59,7 @@ def test_the_place_that_is_tried_is_that_of_the_language():
 SCREW = "screw about (60, 0, 0) mm along y angle {} deg pitch 150 mm/turn in 8 s\n"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sign", [1, -1])
 def test_a_screw_out_of_reach_is_told_a_smaller_angle_not_to_leave_out_a_tool(sign):
     asked, arm = motion_of(SCREW.format(sign * 360))

@@ -124,6 +124,7 @@ def _line_of(dqrobotics, x, z):
     return dqrobotics.DQ([0, *z, 0, *np.cross(dq.translation(x), z)])
 
 
+@pytest.mark.slow
 def test_nearest_points_are_the_least_of_all(rng):
     """Beside scipy, over the segment and over the shape."""
     a, b = rng.normal(size=(2, 30, 3))

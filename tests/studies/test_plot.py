@@ -99,6 +99,7 @@ def written(tmp_path, found, name="run.csv"):
     return tmp_path / name
 
 
+@pytest.mark.slow
 def test_a_csv_has_its_limits_from_the_summary_beside_it(tmp_path):
     path = written(tmp_path, table())
     alone = dqpaint.plot(path)

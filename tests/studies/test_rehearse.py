@@ -87,6 +87,7 @@ def test_when_it_ends():
     assert rehearse.finished([1e-6]).endswith("nothing to learn")
 
 
+@pytest.mark.slow
 def test_a_jump_is_not_rehearsed(tmp_path):
     with pytest.raises(DqpaintError, match="set point jumps"):
         rehearsed("step", tmp_path, plant="ideal")
@@ -101,6 +102,7 @@ def test_an_arm_that_needs_no_teaching_learns_nothing(tmp_path):
     assert not found.learned.any()
 
 
+@pytest.mark.slow
 def test_it_takes_off_gamma_a_trial_and_recordings_teach_the_same(ring, tmp_path, monkeypatch):
     """The runs of a law that lags, again from their own CSVs, as a real arm would give them."""
     monkeypatch.chdir(tmp_path)

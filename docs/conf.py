@@ -3,13 +3,15 @@
 import html
 import re
 import sys
+import time
 from pathlib import Path
 from xml.etree import ElementTree as Xml
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path[:0] = [str(Path(__file__).parents[1]), str(Path(__file__).parent)]
 
 from docutils import nodes
 from docutils.utils.math.latex2mathml import tex2mathml
+from extensions import directives, generated_pages, made
 
 import dqpaint
 from dqpaint.editors.pygments_lexer import TrajLexer
@@ -23,17 +25,24 @@ author = "The dqpaint developers"
 project_copyright = author
 version = release = dqpaint.__version__
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
-myst_enable_extensions = ["dollarmath"]
+myst_enable_extensions = ["dollarmath", "deflist", "colon_fence"]
 myst_heading_anchors = 3
 # links into the sources, which the site does not have; and headings that begin at the second level
 suppress_warnings = ["myst.xref_missing", "myst.header", "misc.highlighting_failure"]
+smartquotes = False  # options begin with two hyphens
 html_math_renderer = "mathml"
 exclude_patterns = ["build"]
+html_static_path = ["static"]
+html_css_files = ["shown.css"]
 html_theme = "furo"
 html_title = f"dqpaint {version}"
 html_show_sourcelink = False
 html_copy_source = False
 html_theme_options = {"source_edit_link": ""}
+man_pages = [  # python -m sphinx -b man docs build/man
+    (f"generated/commands/{name}", f"dqpaint-{name}", f"dqpaint {name}", author, 1)
+    for name in generated_pages.command_names()
+]
 autodoc_typehints = "description"
 autodoc_member_order = "bysource"
 
@@ -77,8 +86,21 @@ def _equations(_app, _name, source):
     source[0] = text.replace("{gather*}", "{aligned}")
 
 
+def _all_if_changed(app, env, docnames):
+    """Read every page that shows something again after the package was changed."""
+    if getattr(env, "dqpaint_hash", "") != made.package_hash():
+        env.dqpaint_hash, begin = made.package_hash(), time.time()
+        docnames[:] = sorted(env.found_docs)
+        app.connect("build-finished", lambda _app, _failed: made.forget_others(begin))
+
+
 def setup(app):
-    """Register what Sphinx has not: the language's colours, equations as MathML."""
+    """Register what Sphinx has not: pictures, generated pages, colours, equations as MathML."""
     app.add_lexer("traj", TrajLexer)
+    app.add_directive("traj", directives.Traj)
+    app.add_directive("picture", directives.Picture)
+    app.add_directive("said", directives.Said)
+    app.connect("builder-inited", lambda _app: generated_pages.write(made.GENERATED))
+    app.connect("env-before-read-docs", _all_if_changed)
     app.connect("source-read", _equations)
     app.add_html_math_renderer("mathml", _math(False), _math(True))

@@ -149,3 +149,21 @@ def test_many_runs_go_as_one_with_a_rule():
     for seed, one in zip((1, 2), many, strict=True):
         alone = track(*given, disturbances=noise, seed=seed)
         np.testing.assert_allclose(one.posture, alone.posture, atol=1e-9)
+
+
+def test_which_rule_a_name_stands_for():
+    assert read_sign("nearest") is None
+    none, hysteresis = read_sign("none"), read_sign("hysteresis,delta=0.4")
+    assert none is not None
+    assert hysteresis is not None
+    assert isinstance(hysteresis(), Hysteresis)
+    assert callable(none())
+    assert none() is none()  # it remembers nothing
+    assert hysteresis() is not hysteresis()  # and this does
+
+
+@pytest.mark.parametrize("name", CONTROLLERS)
+def test_a_law_has_the_docstring_of_its_function(name):
+    one = CONTROLLERS[name]
+    assert one.docstring.startswith(one.summary)
+    assert "Equation:" in one.docstring

@@ -145,3 +145,19 @@ def test_coarser_pixels_cover_the_same_places(rng):
         )  # fmt: skip
         edge = camera.project(points)[0] + 0.5  # from the picture's corner
         np.testing.assert_allclose(coarse.project(points)[0] + 0.5, scale * edge, atol=1e-9)
+
+
+@pytest.mark.parametrize("focal", [0.0, -1.0, np.nan, np.inf])
+def test_no_focal_length_is_refused(focal):
+    with pytest.raises(ValueError, match="must be positive"):
+        Camera([0, 0, 1], np.eye(3), focal, [0, 0], 8, 8)
+
+
+def test_a_reflection_is_no_rotation():
+    with pytest.raises(ValueError, match="reflection"):
+        Camera([0, 0, 1], np.diag([1.0, 1.0, -1.0]), 100.0, [0, 0], 8, 8)
+
+
+def test_one_pixel_is_a_picture():
+    camera = frame_points(np.array([[0.1, 0.2, 0.3]]), np.eye(3), View(0, 0), (1, 1))
+    assert (camera.width, camera.height) == (1, 1)

@@ -6,7 +6,7 @@ import pytest
 
 from dqpaint.light.film.looks import LOOKS
 from dqpaint.light.images.colour_maps import categorical_colours, sequential_colours, sequential_map
-from dqpaint.light.images.legend import Legend, with_legend
+from dqpaint.light.images.legend import Legend, text_length, with_legend, write_text
 
 
 def oklab(rgb):
@@ -83,3 +83,27 @@ def test_kinds_are_named_one_below_the_other(look):
     swatches = shown[:, 30].astype(int)
     runs = np.flatnonzero(np.diff((swatches.max(axis=1) > 0).astype(int)) == 1)
     assert len(runs) >= 8
+
+
+def test_a_kind_is_a_short_line_with_its_name_beside_it():
+    legend = Legend("kinds", ("a", "b"), ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)), False)
+    shown = with_legend(np.zeros((720, 1280, 3), np.uint8), legend, "clip").astype(int)
+    for channel in (0, 1):
+        ink = (shown[..., channel] > 150) & (np.delete(shown, channel, axis=2).max(axis=2) < 60)
+        columns = np.flatnonzero(ink.any(axis=0))
+        assert 20 < np.ptp(columns) < 100
+        row = int(np.flatnonzero(ink.any(axis=1)).mean())
+        label = shown[row - 12 : row + 12, columns.max() + 5 : columns.max() + 60].min(axis=2)
+        assert (label > 100).any()
+        assert not shown[row, columns.max() + 60 :].any()
+
+
+@pytest.mark.parametrize("size", [12, 24])
+def test_a_text_is_as_high_and_long_as_it_is_said_to_be(size):
+    picture = np.zeros((200, 600, 3), np.uint8)
+    write_text(picture, "Hxg 0123", 50, 100, size)
+    rows, columns = np.nonzero(picture.max(axis=2) > 60)
+    assert 0.6 * size < np.ptp(rows) < 1.7 * size
+    assert 90 < rows.max() < 100 + size
+    assert abs(np.ptp(columns) - text_length("Hxg 0123", size)) < 0.35 * size
+    assert abs(columns.min() - 50) < 0.5 * size

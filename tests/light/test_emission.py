@@ -3,6 +3,7 @@ import pytest
 
 from dqpaint.errors import DqpaintError
 from dqpaint.light.sources.emission import Light
+from tests.support.film_scene import flat_camera
 
 
 def test_light_keeps_its_own_read_only_arrays():
@@ -43,3 +44,12 @@ def test_wrong_shapes_and_negative_light_are_refused():
         Light(np.zeros((2, 3)), np.zeros((2, 3)))
     with pytest.raises(ValueError, match="no positions"):
         Light(np.zeros((0, 3)), np.zeros((0, 3)))
+
+
+def test_light_falls_off_with_the_square_from_the_middle_of_each_step(rng):
+    camera = flat_camera()
+    points, energy = rng.normal(0.0, 0.2, (5, 3)), rng.random((4, 3))
+    (light,) = Light(points, energy).emission_to(camera, falloff=True)
+    for k in range(4):
+        away = np.linalg.norm(0.5 * (points[k] + points[k + 1]) - camera.position)
+        np.testing.assert_allclose(light.energy[k], energy[k] / away**2, rtol=1e-12)

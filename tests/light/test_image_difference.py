@@ -177,3 +177,19 @@ def test_a_key_names_every_colour_on_as_many_lines_as_it_takes():
         strong, weak = int(np.argmax(hue)), int(np.argmin(hue))
         assert (below[..., strong] - below[..., weak] > 100).any()
     assert len(with_key(picture, named[:1], "clip")) < len(whole)
+
+
+def test_a_name_of_a_key_stands_beside_its_colour():
+    named = [(f"name {i}", hue) for i, hue in enumerate(hues(3))]
+    strip = with_key(np.zeros((10, 400, 3), np.uint8), named, "clip")[10:].astype(int)
+    inks = [strip[y, x] for y, x in np.argwhere(np.ptp(strip, axis=2) > 100)]
+    for hue in hues(3):
+        ink = max(inks, key=lambda one, hue=hue: one @ np.array(hue))
+        rows, columns = np.nonzero((strip == ink).all(axis=2))
+        patch = strip[rows.min() : rows.max() + 1, columns.min() : columns.max() + 1]
+        assert (patch == ink).all()  # nothing is written over it
+        size = rows.max() + 1 - rows.min()
+        beside = strip[rows.min() - size // 2 : rows.max() + size, columns.max() + 1 :][
+            :, : 4 * size
+        ]
+        assert (np.ptp(beside, axis=2) < 30)[beside.max(axis=2) > 100].any()

@@ -115,3 +115,33 @@ def test_batches_do_not_show():
     cut = expose(Parts(), camera)
     np.testing.assert_allclose(cut.emitted, whole.emitted, rtol=1e-12)
     assert np.abs(cut.planes - whole.planes).sum() < 0.02 * whole.planes.sum()
+
+
+def test_tangents_are_those_of_parabolas_over_uneven_chords():
+    points = np.array([[0, 0, 0], [10, 1, 0], [40, 9, 2], [52, 16, 2]]) * 1e-3
+    begin, end = interpolation.tangents(points)
+    length = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    for k in (1, 2):
+        way = np.polyfit([-length[k - 1], 0.0, length[k]], points[k - 1 : k + 2], 2)[1]
+        np.testing.assert_allclose(begin[k], way / np.linalg.norm(way), rtol=1e-12)
+        np.testing.assert_array_equal(end[k - 1], begin[k])
+
+
+def test_a_step_turns_the_short_way_at_a_constant_rate(rng):
+    """Against exponentials of quaternions, also for small angles and the other sign."""
+    for angle in (3e-7, 1e-3, 0.12, 1.0, 3.0):
+        axis = rng.normal(size=3)
+        axis /= np.linalg.norm(axis)
+        a = rng.normal(size=4)
+        a /= np.linalg.norm(a)
+
+        def turned(part, a=a, axis=axis, angle=angle):
+            half = 0.5 * part * angle
+            return dq.quaternion_mul(np.array([np.cos(half), *(np.sin(half) * axis)]), a)
+
+        for sign in (1.0, -1.0):
+            path = np.array([a, sign * turned(1.0)])
+            part = np.array([0.0, 0.3, 0.7, 1.0])
+            found = interpolation.rotation_at(path, np.zeros(4, int), part)
+            expected = np.array([turned(one) for one in part])
+            np.testing.assert_allclose(found, expected, atol=1e-12)

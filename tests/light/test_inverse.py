@@ -6,8 +6,9 @@ import pytest
 from dqpaint.light.camera import Camera
 from dqpaint.light.film import expose, point_spread, spread
 from dqpaint.light.film.looks import LOOKS
-from dqpaint.light.inverse import Box, Exposing, light_for, solve
+from dqpaint.light.inverse import Box, Exposing, light_for, solve, solving
 from dqpaint.light.inverse.developing import developed, own_slope, slope_back
+from dqpaint.light.inverse.exposing import boxed
 from dqpaint.light.inverse.solving import WHITE
 from dqpaint.light.sources.emission import Light
 
@@ -143,3 +144,33 @@ def test_a_lamp_of_one_colour_keeps_it():
     again = exposing.expose(found.energy)
     assert np.sqrt(((again - wanted) ** 2).mean()) < 0.02 * wanted.mean()
     assert (np.diff(found.costs) <= 0.0).all()
+
+
+def test_a_step_is_the_same_as_its_parts():
+    """Longer than a pixel: it is deposited in pieces, wherever it is cut."""
+    start, end = np.array([[70.3, 60.2]]), np.array([[72.1, 60.8]])
+    middle = 0.5 * (start + end)
+    whole = Exposing(start, end, BOX, point_spread(720), np.float64).expose(np.ones((1, 3)))
+    halves = Exposing(
+        np.vstack([start, middle]), np.vstack([middle, end]), BOX, point_spread(720), np.float64
+    ).expose(np.full((2, 3), 0.5))
+    np.testing.assert_allclose(whole, halves, atol=1e-12)
+
+
+def test_a_box_is_no_larger_than_it_needs_to_be():
+    points = np.array([[10.2, 20.0], [13.0, 25.7]])
+    assert boxed(points, (100, 80)) == Box(10, 20, 4, 7)
+    assert boxed(points - 12.0, (100, 80)) == Box(0, 8, 2, 7)
+    assert boxed(points * 10.0, (100, 80)) == Box(99, 79, 1, 1)
+
+
+def test_it_begins_at_the_best_scale(rng):
+    """Least squares: what is missing is at right angles to what is there."""
+    exposing = Exposing(*hatch(), BOX, point_spread(720), np.float64)
+    target = rng.random((90, 120, 3)) * 0.3
+    problem = solving._Problem(exposing, developed(target)[0], None, None, np.float64)
+    first, bound = rng.random(len(hatch()[0])), np.full((len(hatch()[0]), 3), 1e6)
+    light = problem.exposed(problem.start(target, first, bound))
+    assert abs((light * (target - light)).sum()) < 1e-9 * (light * light).sum()
+    low = np.full_like(bound, 1e-3)
+    assert problem.start(target, first, low).max() == 1e-3

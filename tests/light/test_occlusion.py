@@ -128,3 +128,21 @@ def test_what_lights_a_scene_is_all_of_the_brush(brush):
         whole = expose(light, camera(light)).emitted
         found = sum(energy.sum(axis=0) for _, energy in light.lamp_paths())
         np.testing.assert_allclose(found, whole, rtol=1e-9)
+
+
+def test_what_hides_the_first_step_hides_no_other():
+    light = sweep("point")
+    light = replace(light, colours=np.ones_like(light.colours))
+    eye = camera(light)
+
+    class First:
+        def visible(self, time, places, _lit, _eye):
+            shown = np.ones(places.shape[:-1])
+            shown[0] = 0.0
+            return shown
+
+    behind = light.occluded_by(First(), eye.position)
+    expose(behind, eye)
+    hidden = behind.occlusion.hidden.sum(1)
+    assert hidden[0] > 0.0
+    assert not hidden[1:].any()

@@ -119,3 +119,36 @@ def test_a_huge_sheet_needs_little_time_and_loses_nothing():
     sheet = Sheet(corners.reshape(2, 2, 3), np.ones((1, 3)), np.ones((1, 1, 3)), np.zeros(1, int))
     total = sum(p.lost + p.energy.sum(axis=1) for p in sheet_cells(sheet, camera, 30.0))
     np.testing.assert_allclose(total, 1.0, rtol=1e-9)
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+@pytest.mark.parametrize("far", [False, True])
+@pytest.mark.parametrize(("begin", "end", "lost"), [
+    (-5.5, -1.0, 0.0), (-9.0, -6.5, 1.0), (-8.0, 3.0, 2 / 11), (-20.0, -6.1, 1.0),
+    (2.0, 400.0, None),
+])  # fmt: skip
+def test_light_up_to_the_margin_counts(axis, far, begin, end, lost):
+    """A line that sweeps across one side of the picture, with 6 pixels of margin beyond it."""
+    camera = flat_camera(200, 160)
+    size = (200, 160)[axis]
+    sweep = [begin, end] if not far else [size - 1 - begin, size - 1 - end]
+    if lost is None:
+        lost = (400.0 - (size - 1 + 6)) / 398.0
+    corners = np.full((2, 2, 2), 40.0)
+    corners[0, :, axis], corners[1, :, axis] = sweep
+    corners[:, 1, 1 - axis] = 90.0
+    ends = at_pixels(corners.reshape(4, 2), camera).reshape(2, 2, 3)
+    sheet = Sheet(ends, np.ones((1, 3)), np.full((1, 2, 3), 0.5), np.zeros(1, int))
+    parts = list(sheet_cells(sheet, camera, 6.0))
+    whole = 1.0 / max(abs(end - begin), 1.0)  # of a cell, which is in or out as a whole
+    assert sum(p.lost[0] for p in parts) == pytest.approx(lost, abs=whole)
+    assert sum(p.energy[0].sum() + p.lost[0] for p in parts) == pytest.approx(1.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("joined", [0.0, 0.1, 0.5, 1.0])
+def test_a_bar_gives_the_same_light_however_its_lamps_are_joined(joined):
+    bar = read_brush(f"bar:length=60mm,leds=6,joined={joined}").emitters()
+    sweep = swept(bar, 60, colours=np.ones((59, 3)))
+    camera = camera_for(sweep, "front", (320, 200))
+    film = expose(sweep, camera)
+    assert film.planes[0].sum() == pytest.approx(59 * sweep.period, rel=1e-3)

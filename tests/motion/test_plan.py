@@ -8,11 +8,15 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.core.bounds import DEFAULT_MAX_SAMPLES, LARGEST_MAX_SAMPLES
-from dqpaint.diagnostics import ScriptError, SourceLine
+from dqpaint.core.examples import examples_folder
+from dqpaint.diagnostics import Diagnostic, ScriptError, SourceLine
 from dqpaint.errors import UsageError
+from dqpaint.language import parse
 from dqpaint.motion import plan, survey
+from dqpaint.motion.geometry.batched_shapes import gather_shapes
 from dqpaint.motion.sampling import AT_ONCE
 from dqpaint.motion.schedule import Schedule
+from dqpaint.motion.stroke_errors import StrokeError
 from dqpaint.program.program import (
     Arc,
     CruiseSpeed,
@@ -312,3 +316,39 @@ def test_a_placed_drawing_keeps_the_robot_s_front():
     motion = plan(program(segment("line", "keep"), placement=placed), CANVAS)
     np.testing.assert_array_equal(motion.front, CANVAS[:4])
     np.testing.assert_allclose(motion.canvas[:4], [1, 0, 0, 0])
+
+
+def test_the_frame_of_a_photograph_is_wider_by_its_detail_on_each_side():
+    text = 'place at (500, 100, 400) mm turned rpy(20 deg, 30 deg, 40 deg)\n' \
+           'photo "astronaut.jpg" height 100 mm as hatch detail 5 mm'  # fmt: skip
+    here = examples_folder() / "a.traj"
+    motion = plan(parse(text, str(here), here), dq.IDENTITY)
+    (corners,), (frame,) = motion.photo_corners, motion.photo_frames
+    assert frame.mean(axis=0) == pytest.approx(corners.mean(axis=0))
+    sides, wider = (np.roll(four, -1, axis=0) - four for four in (corners, frame))
+    lengths = np.linalg.norm(sides, axis=1)
+    assert np.linalg.norm(wider, axis=1) == pytest.approx(lengths + 0.01)
+    assert wider / (lengths + 0.01)[:, None] == pytest.approx(sides / lengths[:, None])
+    assert lengths[1] == pytest.approx(0.1)
+    assert abs(sides[0] @ sides[1]) < 1e-9
+
+
+def test_a_stroke_error_says_its_first_message():
+    found = [Diagnostic(f"E{n}", f"fault {n}", None, "", "") for n in (1, 2)]
+    assert str(StrokeError(*found)) == "fault 1"
+    assert StrokeError(*found).diagnostics == tuple(found)
+
+
+def test_the_speed_of_a_shape_is_the_first_of_its_speeds():
+    for text in (
+        "line by (30, 40, 0) mm",
+        "arc centre (30, 0) mm angle 80 deg rise 20 mm",
+        "screw about (10, 0, 0) mm along (1, 2, 3) angle 50 deg pitch 9 mm/turn",
+    ):
+        made = gather_shapes(parse(text, "a").segments, {})
+        form, f = made.shape(0), np.linspace(0.05, 0.95, 7)
+        h = 1e-5
+        ways = np.linalg.norm(
+            dq.translation(form.flow(f + h).pose) - dq.translation(form.flow(f - h).pose), axis=1
+        )
+        assert form.speed(f) == pytest.approx(ways / (2 * h), rel=1e-6)

@@ -341,3 +341,10 @@ def test_beads_at_the_ends_have_a_size(profile, times):
     assert plan(parse(text, "a"), dq.IDENTITY).unevenness == pytest.approx(times, rel=0.02)
     text = f"profile {profile}\nline by (99, 0) mm light white even\nmove by (9, 0) mm"
     assert plan(parse(text, "a"), dq.IDENTITY).unevenness == 1.0
+
+
+def test_where_the_light_goes_out_no_corner_is_rounded():
+    """A blend would need light that is on and off at once."""
+    text = "speed 50 mm/s\nprofile constant\nline by (50, 0) mm\n"
+    assert "blend" in notes(f"{text}line by (0, 50) mm")["W403"].help
+    assert "blend" not in notes(f"{text}move by (0, 50) mm")["W403"].help

@@ -135,3 +135,16 @@ def test_a_jump_is_never_slowed():
     motion = slowed(np.full(len(ASKED.t), 4.0))
     assert motion.jump.sum() == 1
     assert (motion.stroke == 3).sum() == (ASKED.stroke == 3).sum() == 1
+
+
+@pytest.mark.parametrize("first", [1.0, 1.7])
+def test_the_pace_at_both_ends_of_a_stroke_is_the_one_asked_for(first):
+    """What makes its end a sample is spread over its middle, and nothing of it over the ends."""
+    slowness = first + 1.3 * np.sin(np.linspace(0.0, 2.0, 41)) ** 2
+    ticks = TimeScaling(slowness, PERIOD).ticks(0, 40)
+    assert ticks.rate[[0, -1]] == pytest.approx(1 / slowness[[0, -1]], rel=1e-12)
+    tau = ticks.tau
+    assert tau[0] == 0.0
+    assert tau[-1] == 1.0
+    slope = np.gradient(tau, 1.0 / 40)
+    assert slope[1:-1] == pytest.approx(ticks.rate[1:-1], rel=2e-3)

@@ -194,3 +194,19 @@ def test_every_paper_is_whole_and_its_own_numbers_decide_its_claims(name):
             swapped = {**theirs, a: theirs[b], b: theirs[a]}
             if claim.kind == "order" or abs(claim.value - 1) > 2 * claim.tolerance:
                 assert judge(claim, paper, swapped, theirs).word == "fails", claim.says
+
+
+@pytest.mark.parametrize(("values", "said"), [
+    ((0.0, 0.0, 0.0), "holds"), ((0.0, 0.0, 1.0), "fails"), ((1.0, 1.05, 0.96), "holds"),
+    ((1.0, 1.3, 1.0), "fails"), ((1.0, 1.0, 1.3), "fails"),
+])  # fmt: skip
+def test_alike_is_of_all(values, said):
+    claim = {"kind": "alike", "cells": ["a", "b", "c"], "tolerance": 0.1}
+    assert word(claim, ours(*values)) == said
+
+
+def test_of_what_ran_once_nothing_is_tested():
+    once, several = Spread(1, 1.0, np.nan), Spread(5, 1.001, 0.2)
+    assert told_apart([(once, several)]) == [False]  # a thousandth
+    assert told_apart([(once, Spread(5, 2.0, 3.0))]) == [True]  # the number stands
+    assert told_apart([(Spread(5, 1.0, 3.0), Spread(5, 2.0, 3.0))]) == [False]

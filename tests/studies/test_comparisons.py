@@ -160,3 +160,11 @@ def test_a_column_of_families_is_there_if_there_are_families(cells):
     rows = comparisons.difference_rows(alone, "mm")
     assert heads[0] == "within"
     assert [row[:2] for row in rows[:2]] == [["A", "B"], list(alone[0].names)]
+
+
+@pytest.mark.parametrize(("pairs", "axis", "count"), [
+    ("p:hinf", "controller", 1), ("ideal:stiff", "plant", 1), ("p:hinf,p:hinf", "controller", 1),
+])  # fmt: skip
+def test_one_pair_is_enough(pairs, axis, count):
+    chosen = comparisons.choose(AXES, None, pairs)
+    assert (chosen.axis, len(chosen.pairs)) == (axis, count)

@@ -224,3 +224,10 @@ def test_a_full_disk_leaves_whole_lines(tmp_path, monkeypatch):
         room = [5, 7, 10_000]  # a write may take a part
         one.add(SECOND)
     assert path.read_bytes() == encode_line(FIRST) + encode_line(SECOND)
+
+
+def test_what_is_kept_is_known_at_once(tmp_path):
+    with Journal(tmp_path) as one:
+        for result in (FIRST, SECOND):
+            one.add(result)
+            assert one.results[result.key] is result

@@ -10,6 +10,7 @@ from dqpaint.studies.experiment.statistics import (
     Spread,
     holm,
     paired_t,
+    paired_verdict,
     spread,
     two_sided,
     welch,
@@ -160,3 +161,11 @@ def test_effects_far_beyond_chance_have_intervals_at_once():
     found = welch(one, other)
     ends = found.effect * np.sqrt(chdtri(18, [1 - 0.025, 0.025]) / 18)
     np.testing.assert_allclose(found.effect_interval, np.sort(ends), rtol=1e-3)
+
+
+def test_why_nothing_is_said_of_two_sets_is_said():
+    assert paired_verdict([1.0], [2.0], "mm") == "1 and 2 mm over 1 pair: not tested, one run"
+    assert "1.5 and 1.5 mm over 2 pairs: not tested" in paired_verdict([1, 2], [1, 2], "mm")
+    told = paired_verdict([1.0, 1.2, 0.9, 1.1], [2.0, 2.3, 1.9, 2.2], "mm")
+    assert "not tested" not in told
+    assert "difference is -1.05 mm" in told

@@ -125,7 +125,8 @@ def paired_t(one: Sequence[float], other: Sequence[float]) -> Test | None:
 def paired_verdict(one: Sequence[float], other: Sequence[float], unit: str) -> str:
     """Whether paired values (N,) differ by more than they spread, in a sentence."""
     reason = why_untested(one, other, paired=True)
-    means = f"{np.mean(one):.4g} and {np.mean(other):.4g} {unit} over {len(one)} pairs"
+    pairs = f"{len(one)} pair{'s' if len(one) != 1 else ''}"
+    means = f"{np.mean(one):.4g} and {np.mean(other):.4g} {unit} over {pairs}"
     test = None if reason else paired_t(one, other)
     if test is None:
         return f"{means}: not tested, {reason or 'too few runs'}"

@@ -205,7 +205,7 @@ class Schedule:
         found = []
         for first in self.shapes.nonuniform:
             light = self.program.segments[first].light
-            changes = light is not None and (light.first != light.last or light.even)
+            changes = light is not None and (light.changes or light.even)
             if changes and not self.by_length[first]:
                 found += np.flatnonzero(self.first == first).tolist()
         return found

@@ -24,6 +24,7 @@ class StrokeLight:
     Attributes:
         first: linear RGB at the first point (M, 3).
         last: and at the last (M, 3).
+        bent: those with more colours on the way: shares of their length (K,), colours (K, 3).
         even: whether it is dimmed where the tool is slow (M,).
         extent: the length of each stroke (S,) over which even light is even; 0 at a pause. For a
             rotation in place it is 0 with a single lamp, else 1 (its whole angle).
@@ -33,6 +34,7 @@ class StrokeLight:
     table: Schedule
     first: Floats
     last: Floats
+    bent: dict[int, tuple[Floats, Floats]]
     even: Flags
     extent: Floats
     peak: Floats
@@ -46,8 +48,7 @@ class StrokeLight:
         inside = np.clip(rows.fraction, 0.0, 1.0)
         middle = 0.5 * (inside[at + 1] + inside[at])
         part, share = table.inside(stroke, middle)
-        share = share[:, None]
-        light = (1 - share) * self.first[part] + share * self.last[part]
+        light = self._at(part, share)
         for run in np.unique(stroke[table.size[stroke] > 1]).tolist():
             own = slice(*np.searchsorted(rows.stroke, (run, run + 1)))
             steps = slice(*np.searchsorted(stroke, (run, run + 1)))
@@ -56,6 +57,32 @@ class StrokeLight:
             dimmed = np.where(self.even[part], self._share_of_peak(rows, at), 1.0)
             light *= dimmed[:, None]
         return light
+
+    def _at(self, part: Indices, share: Floats) -> Floats:
+        """The colours (K, 3) of segments at shares of their lengths."""
+        s = share[:, None]
+        light = (1 - s) * self.first[part] + s * self.last[part]
+        for number in self.bent.keys() & set(part.tolist()):
+            own = np.flatnonzero(part == number)
+            at, colours = self.bent[number]
+            for channel in range(3):
+                light[own, channel] = np.interp(share[own], at, colours[:, channel])
+        return np.asarray(light)
+
+    def _up_to(self, part: Indices, share: Floats) -> Floats:
+        """The integral (K, 3) of the colours of segments over their shares, from 0 on."""
+        s = share[:, None]
+        total = s * self.first[part] + 0.5 * s**2 * (self.last - self.first)[part]
+        for number in self.bent.keys() & set(part.tolist()):
+            own = np.flatnonzero(part == number)
+            at, colours = self.bent[number]
+            legs = np.diff(at)[:, None] * 0.5 * (colours[1:] + colours[:-1])
+            before = np.concatenate([np.zeros((1, 3)), np.cumsum(legs, axis=0)])
+            leg = interval_of(at, share[own])
+            into = (share[own] - at[leg])[:, None]
+            slope = np.diff(colours, axis=0) / np.diff(at)[:, None]
+            total[own] = before[leg] + into * colours[leg] + 0.5 * into**2 * slope[leg]
+        return np.asarray(total)
 
     def _over_joints(self, run: int, at: Floats, means: Floats) -> None:
         """The mean colours across joints: there each is a difference of the integral.
@@ -67,14 +94,13 @@ class StrokeLight:
         """
         edges = self.table.edges(run)
         begin = self.table.first[run]
-        own = slice(begin, begin + self.table.size[run])
-        first, last, width = self.first[own], self.last[own], np.diff(edges)[:, None]
-        before = np.concatenate([np.zeros((1, 3)), np.cumsum(width * 0.5 * (first + last), axis=0)])
+        segments = begin + np.arange(self.table.size[run])
+        width = np.diff(edges)[:, None]
+        wholes = width * self._up_to(segments, np.ones(len(segments)))
+        before = np.concatenate([np.zeros((1, 3)), np.cumsum(wholes, axis=0)])
         parts = interval_of(edges, at)
-        u = (at - edges[parts])[:, None] / width[parts]
-        gathered = width[parts] * u * first[parts]
-        gathered += width[parts] * 0.5 * u**2 * (last - first)[parts]
-        total = before[parts] + gathered
+        u = (at - edges[parts]) / width[parts, 0]
+        total = before[parts] + width[parts] * self._up_to(segments[parts], u)
         step = np.diff(at)[:, None]
         over = (np.diff(parts) != 0) & (np.abs(step[:, 0]) > 1e-9)
         means[over] = np.clip(np.diff(total, axis=0)[over] / step[over], 0.0, 1.0)
@@ -110,12 +136,15 @@ def make_stroke_light(table: Schedule) -> StrokeLight:
     """The light of all segments of a drawing."""
     segments = table.program.segments
     lights = [segment.light or DARK for segment in segments]
+    for i, segment in enumerate(segments):  # parts of a gradient over the whole stroke
+        if segment.stroke is not None and lights[i] == segment.stroke.light:
+            lights[i] = lights[i].part(float(table.begin[i]), float(table.end[i]))
     first, last = np.array([light.first for light in lights]), np.array([x.last for x in lights])
-    shared = [s.stroke is not None and (s.light or DARK) == s.stroke.light for s in segments]
-    joined = np.flatnonzero(shared)  # parts of a gradient over the whole stroke
-    start, end = table.begin[joined, None], table.end[joined, None]
-    a, b = first[joined], last[joined]
-    first[joined], last[joined] = (1 - start) * a + start * b, (1 - end) * a + end * b
+    bent = {
+        i: (np.array([share for share, _ in light.stops]), np.array([c for _, c in light.stops]))
+        for i, light in enumerate(lights)
+        if light.between
+    }
     even = np.array([light.even for light in lights])
     extent = table.length.copy()
     for stroke in np.flatnonzero(extent == 0.0).tolist():
@@ -126,7 +155,7 @@ def make_stroke_light(table: Schedule) -> StrokeLight:
     fastest = table.peak_rates * extent / np.minimum(table.wanted, table.time)
     paced = table.paced >= 0
     fastest[paced] = table.cruise[table.paced[paced]]
-    return StrokeLight(table, first, last, even, extent, fastest)
+    return StrokeLight(table, first, last, bent, even, extent, fastest)
 
 
 def unevenness(table: Schedule) -> float:

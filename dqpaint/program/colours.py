@@ -45,6 +45,11 @@ def linear(encoded: float) -> float:
     return encoded / 12.92 if encoded <= 0.04045 else ((encoded + 0.055) / 1.055) ** 2.4
 
 
+def encoded(light: float) -> float:
+    """Linear light, 0 to 1, as an sRGB channel: the inverse of `linear`."""
+    return 12.92 * light if light <= 0.0031308 else 1.055 * light ** (1.0 / 2.4) - 0.055
+
+
 def from_hex(digits: str) -> Colour | None:
     """The colour of `ff8800` or `f80`; None if the text is not a colour."""
     if len(digits) == 3:
@@ -67,6 +72,34 @@ def from_hsv(turn: float, saturation: float, value: float) -> Colour:
     """The colour of hue (1 is a full turn), saturation and value in sRGB, as in CSS tools."""
     red, green, blue = colorsys.hsv_to_rgb(turn % 1.0, saturation, value)
     return linear(red), linear(green), linear(blue)
+
+
+def to_hsv(colour: Colour) -> tuple[float, float, float]:
+    """Hue (1 is a full turn), saturation and value of a colour: the inverse of `from_hsv`."""
+    return colorsys.rgb_to_hsv(*map(encoded, colour))
+
+
+def by_hue(first: Colour, last: Colour, share: float, long: bool) -> Colour:
+    """The colour at a share, 0 to 1, of the way between two round the circle of hues.
+
+    Hue, saturation and value change evenly; the hue of a grey is that of the other colour.
+
+    Args:
+        first: at 0.
+        last: at 1.
+        share: of the way.
+        long: the longer way round, all of it where the hues are the same; else the shorter.
+    """
+    (h, s, v), (k, t, w) = to_hsv(first), to_hsv(last)
+    h, k = (k if s == 0.0 else h), (h if t == 0.0 else k)
+    turn = (k - h + 0.5) % 1.0 - 0.5
+    if long:
+        turn += 1.0 if turn <= 0.0 else -1.0
+    return from_hsv(h + share * turn, s + share * (t - s), v + share * (w - v))
+
+
+# Once round the hues, from red to violet.
+RAINBOW = (from_hsv(0.0, 1.0, 1.0), from_hsv(280.0 / 360.0, 1.0, 1.0))
 
 
 COLDEST, HOTTEST = 1000.0, 15000.0  # [K] of `from_temperature`

@@ -8,12 +8,14 @@ motion is said in `dqpaint.motion`.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
-from dqpaint.core import DEFAULT_MAX_SAMPLES, record
+from dqpaint.core import DEFAULT_MAX_SAMPLES, record, replaced
 from dqpaint.diagnostics import Diagnostic, SourceLine, Span, line_name
+from dqpaint.program import colours
 from dqpaint.program.colours import Colour as Colour
 from dqpaint.program.taylor import Floats, Taylor
 from dqpaint.program.walls import Wall
@@ -228,12 +230,49 @@ class Light:
 
     `even` dims the light where the tool is slow, so that the line is equally bright all along.
     `photo` is the number of the program's photograph, from 1, whose light this is; 0 for none.
+    `between` has colours on the way, each at its share of the length, 0 to 1, in order.
     """
 
     first: Colour
     last: Colour
     even: bool = False
     photo: int = 0
+    between: tuple[tuple[float, Colour], ...] = ()
+
+    @property
+    def changes(self) -> bool:
+        """Whether it is another colour somewhere on the way."""
+        return self.first != self.last or bool(self.between)
+
+    @property
+    def stops(self) -> tuple[tuple[float, Colour], ...]:
+        """All colours with their shares of the length, from 0 to 1."""
+        return (0.0, self.first), *self.between, (1.0, self.last)
+
+    def at(self, share: float) -> Colour:
+        """The colour at a share of the length."""
+        if not self.changes:
+            return self.first
+        pairs = pairwise(self.stops)
+        (a, before), (b, after) = next((x, y) for x, y in pairs if share <= y[0] or y[0] >= 1.0)
+        return colours.mix(before, after, (share - a) / (b - a))
+
+    def part(self, lower: float, upper: float) -> "Light":
+        """The light of a part of the length, between two shares."""
+        if not self.changes:
+            return self
+        inside = tuple(
+            ((share - lower) / (upper - lower), colour)
+            for share, colour in self.between
+            if lower < share < upper
+        )
+        return replaced(self, first=self.at(lower), last=self.at(upper), between=inside)
+
+    def dimmed(self, brightness: float) -> "Light":
+        """The same colours, their light multiplied by `brightness`."""
+        first, last = (colours.dim(colour, brightness) for colour in (self.first, self.last))
+        between = tuple((share, colours.dim(colour, brightness)) for share, colour in self.between)
+        return replaced(self, first=first, last=last, between=between)
 
 
 # Light. Brushes are in the tool frame.

@@ -21,7 +21,6 @@ from dqpaint.program import (
     LOOK_MODES,
     STANDING,
     Arc,
-    Colour,
     ContinuousStroke,
     CruiseSpeed,
     Curve,
@@ -41,7 +40,6 @@ from dqpaint.program import (
     Timing,
     Tool,
     Vector,
-    colours,
 )
 
 NO_WAY = 1e-15  # [m]: an arc of the least angle there is has a length of zero
@@ -263,15 +261,9 @@ def _subsegment(segment: Segment, lower: float, upper: float) -> Segment:
         path = Straight(vectors.times(share, path.by))
     light = segment.light
     if light is not None and not _of_run(segment):
-        light = replace(light, first=_shade(light, lower), last=_shade(light, upper))
+        light = light.part(lower, upper)
     start, end = _pose(segment, lower), _pose(segment, upper)
     return replace(segment, path=path, light=light, start=start, end=end)
-
-
-def _shade(light: Light, share: float) -> Colour:
-    if light.first == light.last:
-        return light.first
-    return colours.mix(light.first, light.last, share)
 
 
 def _of_run(segment: Segment) -> bool:
@@ -286,7 +278,7 @@ def _corner_segment(a: Segment, leaves: float, b: Segment, joins: float) -> Segm
     start, end = _pose(a, leaves), _pose(b, joins)
     light = a.light
     if light is not None and b.light is not None and not (_of_run(a) and _of_run(b)):
-        light = Light(_shade(light, leaves), _shade(b.light, joins), light.even)
+        light = Light(light.at(leaves), b.light.at(joins), light.even)
     path = _blend_curve(
         a, b, _direction(a, leaves), _direction(b, joins), start.position, end.position
     )

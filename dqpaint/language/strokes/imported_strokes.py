@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from dqpaint.core import replaced
 from dqpaint.diagnostics import Diagnostic, ErrorLimitError, Fix, Problem, Span, closest, problem
 from dqpaint.language.imports import lettering
 from dqpaint.language.pen import tool_orientation
@@ -318,10 +319,8 @@ def _stroke_lights(
         elif light is None:
             out.append(None)
         else:
-            first, last = (
-                colours.mix(light.first, light.last, float(done[number + i])) for i in (0, 1)
-            )
-            out.append(Light(first, last, even=True))
+            own = light.part(float(done[number]), float(done[number + 1]))
+            out.append(replaced(own, even=True))
     return out
 
 

@@ -22,7 +22,6 @@ from dqpaint.program import (
     Timing,
     Tool,
     Vector,
-    colours,
 )
 
 
@@ -113,12 +112,8 @@ def legs(
             places = (_nearest(mode, start, way), *tool_orientation.closest_to_up(mode, start, way))
             tool_orientation.check_orientations(mode, places, statement.span)
         glow = light
-        if light is not None and light.first != light.last and not _spans_stroke(pen, light):
-            glow = Light(
-                colours.mix(light.first, light.last, first),
-                colours.mix(light.first, light.last, last),
-                light.even,
-            )
+        if light is not None and not _spans_stroke(pen, light):
+            glow = light.part(first, last)
         pen.draw(Straight(way), tool, leg_time, glow, Pose(stop, orientation), statement.span)
 
 

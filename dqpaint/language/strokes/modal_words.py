@@ -11,6 +11,7 @@ from dqpaint.language.syntax.tree import (
     ColourWords,
     CornerWords,
     LightWords,
+    Name,
     Part,
     StrobeWords,
     ToolWords,
@@ -86,14 +87,46 @@ def tool_mode(words: ToolWords, scope: Scope, frame: Frame) -> ToolMode:
 
 def light_of(words: LightWords, state: StrokeState, scope: Scope) -> Light | None:
     """The light of a clause; None if it is off from end to end."""
-    first = _shade(words.first, state.shone.first, scope)
-    last = first
-    if words.last is not None:
-        last = _shade(words.last, state.shone.last, scope, after_to=True)
-    elif words.first.word == "on":
-        last = colours.dim(state.shone.last, words.first.brightness)
+    if not words.rest and words.first.word == "on":
+        return replaced(
+            state.shone.dimmed(words.first.brightness), even=words.even or state.shone.even
+        )
+    rainbow = _is_rainbow(words, scope)
+    named = [] if rainbow else [_shade(words.first, state.shone.first, scope)]
+    named += [_shade(shade, state.shone.last, scope, after_to=True) for shade in words.rest]
+    if rainbow:
+        named = [colours.dim(colour, words.first.brightness) for colour in colours.RAINBOW]
+    stops = gradient(named, "hue long" if rainbow else words.way)
     even = words.even or (words.first.word == "on" and state.shone.even)
-    return Light(first, last, even) if (first, last) != (colours.DARK, colours.DARK) else None
+    if all(colour == colours.DARK for _, colour in stops):
+        return None
+    return Light(stops[0][1], stops[-1][1], even, between=tuple(stops[1:-1]))
+
+
+def _is_rainbow(words: LightWords, scope: Scope) -> bool:
+    """Whether it is `light rainbow`, and the file has no such name."""
+    value = words.first.value
+    named = isinstance(value, Name) and value.name == "rainbow" and not words.rest
+    return named and not scope.defines("rainbow")
+
+
+HUES = 24  # colours for each way round the hues, between which light is mixed
+
+
+def gradient(named: list[Colour], way: str) -> list[tuple[float, Colour]]:
+    """Colours, evenly apart, and those between them on a way by hue, with their shares."""
+    if not way or len(named) < 2:
+        last = max(len(named) - 1, 1)
+        stops = [(i / last, colour) for i, colour in enumerate(named)]
+        return stops if len(stops) > 1 else [*stops, (1.0, named[0])]
+    pieces = HUES * (len(named) - 1)
+    stops = [(0.0, named[0])]
+    for i in range(1, pieces + 1):
+        leg = (i - 1) // HUES
+        share = (i - leg * HUES) / HUES
+        mixed = colours.by_hue(named[leg], named[leg + 1], share, way == "hue long")
+        stops.append((i / pieces, named[leg + 1] if share == 1.0 else mixed))
+    return stops
 
 
 def strobe_of(words: StrobeWords, scope: Scope) -> Strobe | None:

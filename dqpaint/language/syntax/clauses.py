@@ -68,15 +68,23 @@ def _tool(cursor: Cursor) -> ToolWords:
 
 def _light(cursor: Cursor) -> LightWords:
     start = cursor.token.start
-    first = _shade(cursor)
-    last = None
-    if cursor.is_word("to"):
+    first, rest, way = _shade(cursor), [], ""
+    while cursor.is_word("to"):
         cursor.take()
-        last = _shade(cursor, "light … to")
+        rest.append(_shade(cursor, "light … to"))
+    if cursor.is_word("hue"):
+        span = cursor.take().span
+        if not rest:
+            message, help = "a light of one colour has no way", "for example: light red to blue hue"
+            raise problem("E109", message, span, "", help)
+        way = "hue"
+        if cursor.is_word("long"):
+            cursor.take()
+            way = "hue long"
     even = cursor.is_word("even")
     if even:
         cursor.take()
-    return LightWords(first, last, cursor.span_from(start), even)
+    return LightWords(first, tuple(rest), cursor.span_from(start), even, way)
 
 
 def _shade(cursor: Cursor, after: str = "light") -> ColourWords:

@@ -151,12 +151,16 @@ class ColourWords:
 
 @record
 class LightWords:
-    """One shade, or a gradient between two; `even` for constant brightness."""
+    """One shade, or a gradient through several; `even` for constant brightness.
+
+    `way` is `hue` for one through the hues between, `hue long` for the long way round them.
+    """
 
     first: ColourWords
-    last: ColourWords | None
+    rest: tuple[ColourWords, ...]
     span: Span
     even: bool = False
+    way: str = ""
 
 
 @record

@@ -52,12 +52,14 @@ def completions(text: str, offset: int) -> list[Entry]:
         return _entries("profile")
     if last == "brush":
         return _brushes()
-    if last == "light" or (last == "to" and "light" in tokens):
+    if last == "light":
+        return [*_entries("colour", "function"), *_words("on", "off", "rainbow")]
+    if last == "to" and "light" in tokens:
         return [*_entries("colour", "function"), *_words("on", "off")]
     if last == "tool":
         return [*_words("keep", "follow", "look"), *_entries("function")]
     found = [*(_words("auto") if last == "place" else ()), *_brush_values(tokens)]
-    found += _next_parts(tokens)
+    found += [*_words(*_after_colours(tokens)), *_next_parts(tokens)]
     if last == ")":
         found += units
     return [*found, *_values(text)]
@@ -85,6 +87,14 @@ def _brush_values(tokens: list[str]) -> list[Entry]:
         for key, field in fields.items()
         if key not in said
     ]
+
+
+def _after_colours(tokens: list[str]) -> tuple[str, ...]:
+    """What may stand behind the colours of a light."""
+    if "light" not in tokens[:-1]:
+        return ()
+    rest = tokens[tokens.index("light") :]
+    return ("hue", "even") if "to" in rest else ("even",)
 
 
 def _next_parts(tokens: list[str]) -> list[Entry]:

@@ -47,6 +47,8 @@ def test_no_meaning(text):
     ("profile |", {"cubic"}, {"red", "mm"}),
     ("line to (1, 0) mm light |", {"red", "off", "hsv"}, {"mm", "speed"}),
     ("light red to b|", {"blue"}, {"to"}),
+    ("light |", {"rainbow"}, {"hue"}),
+    ("light red to blue |", {"hue", "even"}, {"rainbow"}),
     ("hold 3 |", {"s", "ms"}, {"light", "red"}),
     ("place |", {"auto", "at"}, {"red", "keep"}),
     ("tool |", {"keep", "look", "rpy"}, {"red"}),

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from dqpaint.language import ScriptError, parse
+from dqpaint.language.writing.formatter import formatted
 from dqpaint.motion import plan
+from dqpaint.outputs.robot.light_cues import cue_sheet
 from dqpaint.program import Light, colours
 
 IDENTITY = np.array([1.0, 0, 0, 0, 0, 0, 0, 0])
@@ -83,3 +85,18 @@ def test_one_colour_has_no_way() -> None:
     with pytest.raises(ScriptError) as caught:
         parse("line by (9, 0) mm light red hue", "a.traj")
     assert caught.value.diagnostics[0].code == "E109"
+
+
+def test_a_lamp_that_is_cued_shows_the_colour_of_the_way() -> None:
+    text = "profile constant\nline by (60, 0) mm speed 60 mm/s light red to lime to blue"
+    rows = cue_sheet(plan(parse(text, "a.traj"), IDENTITY), ()).splitlines()
+    s, *rgb = np.array([row.split(",")[1:5] for row in rows if row[0].isdigit()], dtype=float).T[:4]
+    near = np.array([np.interp(s + 0.24e-3, (0, 0.03, 0.06), stops) for stops in np.eye(3)])
+    np.testing.assert_allclose(np.array(rgb)[:, :-1], near[:, :-1], atol=0.02)
+
+
+@pytest.mark.parametrize("way", ["", " hue", " hue long", " hue long even"])
+def test_the_formatter_keeps_the_way(way: str) -> None:
+    text = f"line by (9, 0) mm light   red 50%  to lime to blue{way.replace(' ', '  ')}"
+    assert formatted(text) == f"line by (9, 0) mm light red 50% to lime to blue{way}\n"
+    assert parse(formatted(text)).segments[0].light == parse(text).segments[0].light

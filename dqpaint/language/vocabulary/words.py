@@ -348,7 +348,7 @@ RENAMED = {"law": "profile"}
 
 LITTLE_WORDS = (
     *("from", "for", "on", "off", "even", "keep", "follow", "look", "up", "point", "bar", "auto"),
-    "jump",
+    *("jump", "hue", "rainbow"),
 )
 
 # What a task controls: the names that `task` takes.
@@ -391,8 +391,21 @@ FUNCTIONS = {
 # the names of a `def`, too, since drawings had their own before there were these.
 FREE = (
     *SHAPES,
-    *("as", "base", "colours", "corner", "cross", "dark", "detail", "height", "inner", "jump"),
-    *("left", "long", "max", "order", "radius", "right", "smooth", "unit", "width", "within"),
+    *("as", "base", "colours", "corner", "cross", "dark", "detail", "height", "hue", "inner"),
+    *(
+        "jump",
+        "rainbow",
+        "left",
+        "long",
+        "max",
+        "order",
+        "radius",
+        "right",
+        "smooth",
+        "unit",
+        "width",
+        "within",
+    ),
 )
 RESERVED = frozenset(
     (*STATEMENTS, *PARTS, *RENAMED, *LITTLE_WORDS, "if", "else", "while")

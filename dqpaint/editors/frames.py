@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator
 from typing import Protocol
 
-HEADER = re.compile(rb"Content-Length: *(\d{1,18})\r\n(?:[!-~]+: *[ -~]*\r\n)*\r\n", re.IGNORECASE)
+HEADER = re.compile(rb"Content-Length: *(\d{1,18})\r\n(?:[!-9;-~]+:[ -~]*\r\n)*\r\n", re.IGNORECASE)
 CHUNK = 65536
 LARGEST = 64_000_000  # bytes of a message; a drawing has at most 2 MB
 _decoder = json.JSONDecoder()

@@ -76,3 +76,10 @@ def test_the_stream_has_true_lengths(error):
     assert frames.readline() == b"\r\n"
     assert json.loads(frames.read(10**6)) == BODIES[0]
     assert frames.readline() == b""
+
+
+def test_a_header_has_one_way_to_be_read():
+    """Lines with many colons before one that is none: no way through them is tried twice."""
+    crooked = b"Content-Length: 3\r\n" + b"a:b:c:d: e: f \r\n" * 60 + b"\xff"
+    *_, last = messages(Pieces(crooked + encoded(BODIES[0]), (65536,)))
+    assert json.loads(last) == BODIES[0]

@@ -42,6 +42,8 @@ WRONG = {
     "a normal beyond": ("a.obj", OBJ.replace(b"4//1", b"4//2"), "corner '4//2'"),
     "back too far": ("a.obj", OBJ.replace(b"-3\n", b"-5\n", 2), "corner '-5'"),
     "back before it is there": ("a.obj", b"f -1 -1 -1\n" + OBJ, "line 1"),
+    "a face before its vertices": ("a.obj", b"f 1 2 3\n" + OBJ, "line 1"),
+    "a vertex too late": ("a.obj", OBJ + b"f 1 2 5\nv 1 1 1\n", "corner '5'"),
     "huge": ("a.obj", OBJ.replace(b"4//1", b"99999999999//1"), "corner"),
     "no number": ("a.obj", OBJ.replace(b"4//1", b"x//1"), "corner"),
     "infinite": ("a.obj", OBJ.replace(b"-3", b"1e999", 1), "number"),

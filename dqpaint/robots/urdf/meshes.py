@@ -82,11 +82,11 @@ def _check(path: Path, _changed: int, _size: int) -> Mesh | str:
 
 
 def _obj(data: bytes, path: Path) -> Mesh:
-    """A Wavefront OBJ: every index is one of a vertex that is there."""
+    """A Wavefront OBJ: every index is one of a vertex that stands before it."""
     if b"\0" in data or b"\\" in data or b"\r" in data.replace(b"\r\n", b"\n"):
         raise MeshError("is no plain OBJ text: it has a zero, a backslash or a bare CR")
     counts = {b"v": 0, b"vt": 0, b"vn": 0}
-    corners: dict[bytes, int] = {}  # each once, and a line that has it
+    corners: dict[bytes, int] = {}  # each once, and a line that has it; of those not yet checked
     numbers: dict[bytes, list[bytes]] = {kind: [] for kind in counts}
     triangles = 0
     for number, line in enumerate(data.split(b"\n"), 1):
@@ -97,6 +97,8 @@ def _obj(data: bytes, path: Path) -> Mesh:
             continue
         word, *rest = words
         if word in counts:
+            _check_corners(corners, counts)  # PyBullet reads a face with the vertices before it
+            corners.clear()
             if len(rest) < LEAST_NUMBERS[word]:
                 raise MeshError(f"line {number} has too few numbers")
             counts[word] += 1

@@ -79,10 +79,14 @@ def inner_frame(statement: Statement, outer: Frame, scope: Scope) -> Frame:
     frame, parts = outer, statement.parts
     for i, part in enumerate(parts):
         if part.word == "rotate":
-            about = parts[i + 1] if i + 1 < len(parts) and parts[i + 1].word == "about" else None
-            frame = frame.within(_rotation(part, about, scope))
+            frame = frame.within(_rotation(part, _about(parts, i), scope))
         elif part.word == "shift":
             frame = frame.within(Frame(shift=typed_values.place(part.expression, scope, "shift")))
+        elif part.word == "mirror":
+            normal = typed_values.direction(part.expression, scope, "mirror")
+            about = _about(parts, i)
+            point = typed_values.place(about.expression, scope, "about") if about else vectors.ZERO
+            frame = frame.within(vectors.mirror(normal, point))
         elif part.word == "scale":
             frame = frame.within(
                 Frame(scale=typed_values.positive(part.expression, scope, "scale"))
@@ -92,6 +96,11 @@ def inner_frame(statement: Statement, outer: Frame, scope: Scope) -> Frame:
     if not 1.0 / typed_values.LARGEST <= frame.scale <= typed_values.LARGEST:
         raise problem("E201", "this scale is too extreme", statement.span)
     return frame
+
+
+def _about(parts: tuple[Part, ...], i: int) -> Part | None:
+    """The `about` that stands behind a part."""
+    return parts[i + 1] if i + 1 < len(parts) and parts[i + 1].word == "about" else None
 
 
 def _rotation(part: Part, about: Part | None, scope: Scope) -> Frame:

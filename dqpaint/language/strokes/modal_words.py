@@ -18,7 +18,7 @@ from dqpaint.language.syntax.tree import (
 )
 from dqpaint.language.values import typed_values
 from dqpaint.language.values.scope import Scope
-from dqpaint.language.values.vectors import Frame, Y
+from dqpaint.language.values.vectors import Frame, Y, times
 from dqpaint.program import (
     Colour,
     FixedOrientation,
@@ -80,7 +80,8 @@ def tool_mode(words: ToolWords, scope: Scope, frame: Frame) -> ToolMode:
         case "look line":
             point = typed_values.place(values[0], scope, "look line")
             along = typed_values.direction(values[1], scope, "along")
-            return LookLine(frame.point(point), frame.direction(along))
+            # It is the tool's x, of whose image the opposite is taken (`Frame.orientation`).
+            return LookLine(frame.point(point), times(frame.hand, frame.direction(along)))
         case _:
             return TurnTo(frame.orientation(typed_values.orientation(values[0], scope, "tool")))
 

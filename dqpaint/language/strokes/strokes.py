@@ -81,7 +81,7 @@ def _arc(statement: Statement, pen: Pen, scope: Scope) -> None:
         if pen.lost:
             pen.pose, pen.lost = Pose(end, pen.pose.orientation), False
             return
-        side = 1.0 if statement.part("left") else -1.0
+        side = pen.frame.hand * (1.0 if statement.part("left") else -1.0)
         long, spans = (
             statement.part("long") is not None,
             (statement.required("radius").span, to.span),
@@ -110,7 +110,7 @@ def _turn_about_centre(statement: Statement, pen: Pen, scope: Scope) -> Arc:
         for word in ("rise", "grow")
         for part in (statement.value(word),)
     )
-    arc = Arc(centre, axis, angle, rise, grow)
+    arc = Arc(centre, axis, frame.hand * angle, rise, grow)
     if not pen.lost:
         grow_node = statement.value("grow")
         arcs.check(arc, pen.pose.position, node.span, grow_node.span if grow_node else node.span)
@@ -148,6 +148,7 @@ def _screw(statement: Statement, pen: Pen, scope: Scope) -> None:
         message = "a screw of 0 deg goes nowhere"
         raise problem("E244", message, angle_node.span, "", "to go straight, use: line by")
     advance = frame.scale * typed_values.number(pitch, scope, "pitch") * angle if pitch else 0.0
+    angle *= frame.hand
     mode = pen.state.tool
     if isinstance(mode, LOOK_MODES) and not pen.oriented:
         tool_orientation.look_at_start(pen, mode, statement.span)

@@ -178,9 +178,10 @@ def _with(statement: Statement) -> None:
         raise problem("E115", "this 'with' changes nothing", statement.span, "", help)
     before = ""
     for part in statement.parts:
-        if part.word == "about" and before != "rotate":
+        if part.word == "about" and before not in ("rotate", "mirror"):
+            message = "'about' says what 'rotate' turns about, and what 'mirror' goes through"
             help = "write: with rotate 30 deg about (10, 0) mm"
-            raise problem("E248", "'about' says what 'rotate' turns about", part.span, "", help)
+            raise problem("E248", message, part.span, "", help)
         before = part.word
 
 

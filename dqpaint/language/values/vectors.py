@@ -1,6 +1,7 @@
 """Vectors, unit quaternions and similarity frames as plain tuples, for few values at a time.
 
-Orientations are unit quaternions, scalar first. `Frame` maps p to scale * R(p) + shift.
+Orientations are unit quaternions, scalar first. `Frame` maps p to scale * R(M p) + shift, where M
+turns x round if the frame is mirrored.
 """
 
 import math
@@ -148,11 +149,17 @@ def turn_of_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
 
 
 class Frame(NamedTuple):
-    """A similarity: p goes to scale * R(turn) p + shift."""
+    """A similarity: p goes to scale * R(turn) M p + shift; M is diag(-1, 1, 1) if mirrored."""
 
     scale: float = 1.0
     turn: Quaternion = UNTURNED
     shift: Vector = ZERO
+    mirrored: bool = False
+
+    @property
+    def hand(self) -> float:
+        """1, or -1 if what turns right-handed inside turns left-handed outside."""
+        return -1.0 if self.mirrored else 1.0
 
     def point(self, p: Vector) -> Vector:
         """A position in the outer frame."""
@@ -160,26 +167,41 @@ class Frame(NamedTuple):
 
     def vector(self, v: Vector) -> Vector:
         """A displacement in the outer frame."""
-        return v if self is WORLD else times(self.scale, turned(self.turn, v))
+        return v if self is WORLD else times(self.scale, self.direction(v))
 
     def direction(self, d: Vector) -> Vector:
         """A unit vector in the outer frame."""
-        return turned(self.turn, d)
+        return turned(self.turn, (self.hand * d[0], d[1], d[2]))
 
     def orientation(self, q: Quaternion) -> Quaternion:
-        """An orientation in the outer frame."""
-        return turn_product(self.turn, q)
+        """An orientation in the outer frame.
+
+        No tool can be mirrored: of the image of its axes y and z stay, x turns round. So it points
+        where its image points, and a tool that faces the viewer still does.
+        """
+        w, x, y, z = q
+        return turn_product(self.turn, (w, x, self.hand * y, self.hand * z))
 
     def within(self, inner: "Frame") -> "Frame":
         """The composition of `inner` and then this frame."""
         return Frame(
             self.scale * inner.scale,
-            turn_product(self.turn, inner.turn),
+            self.orientation(inner.turn),
             self.point(inner.shift),
+            self.mirrored != inner.mirrored,
         )
 
 
 WORLD = Frame()
+
+
+def mirror(normal: Vector, point: Vector = ZERO) -> Frame:
+    """The reflection across the plane through `point` whose unit normal is `normal`.
+
+    Two reflections are a turn, the product of their normals: this one after that of x.
+    """
+    x, y, z = normal
+    return Frame(1.0, (-x, 0.0, z, -y), times(2.0 * dot(normal, point), normal), mirrored=True)
 
 
 def screw_moved(pose: Pose, point: Vector, axis: Vector, angle: float, advance: float) -> Pose:

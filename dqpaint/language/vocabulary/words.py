@@ -90,6 +90,7 @@ PARTS = {
         PartWord("along", "direction", "the direction of the axis", "along z"),
         PartWord("pitch", "pitch", "the advance for each turn", "pitch 150 mm/turn"),
         PartWord("rotate", "rotation", "the block, turned", "rotate 30 deg"),
+        PartWord("mirror", "direction", "the block, mirrored along this direction", "mirror x"),
         PartWord("shift", "shift", "the block, moved", "shift (80, 0) mm"),
         PartWord("scale", "number", "the block, larger or smaller", "scale 0.5"),
         PartWord("frame", "frame", "the block, in a frame that has a name", "frame leaf"),
@@ -319,10 +320,10 @@ STATEMENTS = {
         ),
         StatementWord(
             "with",
-            "its lines, turned, moved, scaled or set differently",
+            "its lines, turned, mirrored, moved, scaled or set differently",
             "with rotate 30 deg shift (80, 0) mm",
-            parts=("rotate", "about", "shift", "scale", "frame", *MODAL),
-            many=("rotate", "about", "shift", "scale", "frame"),
+            parts=("rotate", "about", "mirror", "shift", "scale", "frame", *MODAL),
+            many=("rotate", "about", "mirror", "shift", "scale", "frame"),
             block=True,
         ),
         StatementWord(
@@ -392,20 +393,8 @@ FUNCTIONS = {
 FREE = (
     *SHAPES,
     *("as", "base", "colours", "corner", "cross", "dark", "detail", "height", "hue", "inner"),
-    *(
-        "jump",
-        "rainbow",
-        "left",
-        "long",
-        "max",
-        "order",
-        "radius",
-        "right",
-        "smooth",
-        "unit",
-        "width",
-        "within",
-    ),
+    *("jump", "left", "long", "max", "mirror", "order", "radius", "rainbow", "right", "smooth"),
+    *("unit", "width", "within"),
 )
 RESERVED = frozenset(
     (*STATEMENTS, *PARTS, *RENAMED, *LITTLE_WORDS, "if", "else", "while")

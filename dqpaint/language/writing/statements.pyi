@@ -85,8 +85,8 @@ class Statements:
         """A pause: `d.hold("1 s")`."""
     def repeat(self, *values: Any) -> AbstractContextManager[None]:
         """Its lines, several times: `d.repeat("i", 1, 5), or d.repeat(5)`."""
-    def block(self, *, rotate: Any = ..., about: Any = ..., shift: Any = ..., scale: Any = ..., frame: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> AbstractContextManager[None]:
-        """Its lines, turned, moved, scaled or set differently: `d.block(rotate="30 deg", shift="(80, 0) mm")`."""
+    def block(self, *, rotate: Any = ..., about: Any = ..., mirror: Any = ..., shift: Any = ..., scale: Any = ..., frame: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> AbstractContextManager[None]:
+        """Its lines, turned, mirrored, moved, scaled or set differently: `d.block(rotate="30 deg", shift="(80, 0) mm")`."""
     def stroke(self, *, in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> AbstractContextManager[None]:
         """Its lines in one go, without a stop between them: `d.stroke(in_="5 s")`."""
     def define(self, *values: Any) -> AbstractContextManager[None]:

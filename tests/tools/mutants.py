@@ -295,7 +295,15 @@ def in_a_fork(copy_of: Path, words: list[str], plugins: list[Any], told: Path | 
         sys.dont_write_bytecode = True
         code = 99
         try:
-            options = ["-x", "-q", "-p", "no:cacheprovider", "-m", "not slow", "--tb=line"]
+            options = [
+                *(["-x"] if told is None else []),
+                "-q",
+                "-p",
+                "no:cacheprovider",
+                "-m",
+                "not slow",
+                "--tb=line",
+            ]
             code = pytest.main([*options, *words], plugins=plugins)
             if told is not None:
                 told.write_text(json.dumps(plugins[0].tests))

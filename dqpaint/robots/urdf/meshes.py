@@ -31,7 +31,8 @@ LARGEST_TRIAL = 3_000_000_000  # bytes of address space, of which the libraries 
 LONGEST_NUMBER = 40  # bytes
 LEAST_NUMBERS = {b"v": 3, b"vt": 2, b"vn": 3}
 FACES, NAMES = (b"f", b"l", b"p"), (b"g", b"o", b"s", b"usemtl")
-CORNER = re.compile(rb"(-?\d{1,9})(?:/(-?\d{1,9})?(?:/(-?\d{1,9}))?)?")
+# v, v/vt, v//vn or v/vt/vn; PyBullet dies of one that ends with a slash
+CORNER = re.compile(rb"(-?\d{1,9})(?:/(?!/?\Z)(-?\d{1,9})?(?:/(-?\d{1,9}))?)?")
 TEXTURES = (b"map_", b"bump", b"disp", b"decal", b"refl", b"norm")
 DAE_FACES = {"triangles": 3, "polylist": 0, "polygons": 0, "lines": 2}  # corners; 0: any number
 

@@ -57,6 +57,13 @@ def closest(word: str, known: Iterable[str], aliases: Mapping[str, str] | None =
     return ""
 
 
+def is_no_memory(fault: BaseException) -> bool:
+    """Whether a fault says that there is not enough memory, for numbers or for a library's code."""
+    return isinstance(fault, MemoryError) or (
+        isinstance(fault, ImportError) and "failed to map segment" in str(fault)
+    )
+
+
 class OutputError(DqpaintError):
     """A place that cannot be written."""
 

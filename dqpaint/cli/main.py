@@ -10,11 +10,10 @@ from dqpaint.cli.front import streams
 from dqpaint.cli.front.colours import show
 from dqpaint.cli.language import point_at, tell
 from dqpaint.cli.studies import app
-from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.errors import DqpaintError, UsageError, is_no_memory
 
 DEBUG = "DQPAINT_DEBUG"  # an environment variable: internal errors show where they are
 SHOWS = f"{DEBUG}=1 shows where"
-NO_ROOM = "failed to map segment"  # how the loader of libraries says so
 INTERRUPTED = 130
 
 
@@ -74,8 +73,7 @@ def _flush() -> None:
 
 def _of_the_machine(fault: Exception) -> str:
     """The sentence of a fault that a full disk, memory or the like may cause anywhere."""
-    no_room = isinstance(fault, ImportError) and NO_ROOM in str(fault)  # for a library
-    if isinstance(fault, MemoryError) or no_room:
+    if is_no_memory(fault):
         return f"error: there is not enough memory; a smaller --size or drawing needs less; {SHOWS}"
     if not isinstance(fault, OSError):
         return ""

@@ -11,7 +11,7 @@ import pytest
 import dqpaint
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.settings.model import make_settings
-from dqpaint.studies.runner import process_pool
+from dqpaint.studies.runner import process_pool, worker
 from dqpaint.studies.runner.engine import carry_out_study
 from dqpaint.studies.runner.journal import HEAD, NAME
 from dqpaint.studies.runner.reporter import Callback
@@ -272,3 +272,19 @@ def test_runs_that_would_all_be_the_same_are_refused():
         with pytest.raises(UsageError, match="random"):
             seeded(run(disturb=constant), 3)
     assert len(seeded(run(disturb={"noise": {"rms": 1e-4}}), 3)) == 3
+
+
+@pytest.mark.parametrize(("fault", "no_memory"), [
+    (MemoryError(), True), (ImportError("a.so: failed to map segment from shared object"), True),
+    (ImportError("no module named a"), False), (ValueError("failed to map segment"), False),
+])  # fmt: skip
+def test_no_memory_is_told_as_such_and_is_of_the_machine(tmp_path, monkeypatch, fault, no_memory):
+    def broken(*_):
+        raise fault
+
+    monkeypatch.setattr(worker.paint, "paint", broken)
+    run = Run("a.traj", "line to (1, 0) mm", make_settings(controller="p"))
+    done = worker.carry_out(run, "key", tmp_path)
+    assert (done.status, "memory" in done.message) == (
+        ("died", True) if no_memory else ("failed", False)
+    )

@@ -24,7 +24,7 @@ from dqpaint.core import (
     read_regular,
 )
 from dqpaint.disturbances import find_files, make_disturbances
-from dqpaint.errors import TimeLimitError, UsageError
+from dqpaint.errors import TimeLimitError, UsageError, is_no_memory
 from dqpaint.language import parse, read
 from dqpaint.language.imports import files_of
 from dqpaint.language.writing import builder
@@ -160,7 +160,7 @@ def is_of_the_machine(fault: BaseException | None) -> bool:
     A file that is missing is a fault of the run: its key changes when the file is there.
     """
     while fault is not None:
-        if isinstance(fault, OSError | MemoryError | TimeLimitError):
+        if is_no_memory(fault) or isinstance(fault, OSError | TimeLimitError):
             return not isinstance(fault, FileNotFoundError)
         fault = fault.__cause__ or fault.__context__
     return False

@@ -20,7 +20,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from dqpaint.errors import DqpaintError, TimeLimitError, UnstableError
+from dqpaint.errors import DqpaintError, TimeLimitError, UnstableError, is_no_memory
 from dqpaint.metrics import limits_text
 from dqpaint.painting import paint, time_limit
 from dqpaint.studies.runner.batches import Task, carry_out_batch, goes_in_batches
@@ -56,7 +56,7 @@ def carry_out(
         said = f"internal error: {fault!r}"
         if known or isinstance(fault, OSError):
             said = str(fault)
-        elif isinstance(fault, MemoryError):
+        elif is_no_memory(fault):
             said = "there is not enough memory"
         return Result(key, status, said, wall=time.perf_counter() - begin)
     found, figures = painting.judgement, painting.metrics.figures

@@ -17,6 +17,7 @@ from dqpaint.language.pen.durations import divide_timing, timing
 from dqpaint.language.pen.pen import FARTHEST, SAME_PLACE, Pen, pose_problem
 from dqpaint.language.pen.stroke_state import TurnTo
 from dqpaint.language.strokes.curves import GAP
+from dqpaint.language.strokes.fill import filled
 from dqpaint.language.syntax.tree import Name, Quoted, Statement
 from dqpaint.language.values import typed_values, vectors
 from dqpaint.language.values.scope import Scope
@@ -76,9 +77,8 @@ def text(statement: Statement, pen: Pen, scope: Scope) -> None:
     )
     if at is not None:
         pen.lost = False
-    draw_traces(
-        statement, pen, scope, placed([(curve, None) for curve in made.strokes], pen, scale, shift)
-    )
+    strokes = filled(statement, scope, [(curve, None) for curve in made.strokes], scale)
+    draw_traces(statement, pen, scope, placed(strokes, pen, scale, shift))
 
 
 def path(statement: Statement, pen: Pen, scope: Scope) -> None:
@@ -122,8 +122,9 @@ def svg(statement: Statement, pen: Pen, scope: Scope) -> None:
     loose = [curve for curve, _ in drawing.lines]
     scale, origin = _fitted(statement, pen, scope, loose)
     shift = place_of(statement, pen, scope, scale * origin)
+    lines = filled(statement, scope, drawing.lines, scale)
     pen.dark_saved += drawing.saved * scale * pen.frame.scale
-    draw_traces(statement, pen, scope, placed(drawing.lines, pen, scale, shift))
+    draw_traces(statement, pen, scope, placed(lines, pen, scale, shift))
 
 
 # Where and how large.

@@ -6,6 +6,7 @@ import numpy as np
 
 from dqpaint.diagnostics import problem
 from dqpaint.language.pen.pen import Pen
+from dqpaint.language.strokes.fill import filled
 from dqpaint.language.strokes.imported_strokes import draw_traces, placed
 from dqpaint.language.syntax.tree import Statement
 from dqpaint.language.values import typed_values, vectors
@@ -34,7 +35,8 @@ def shape(statement: Statement, pen: Pen, scope: Scope) -> None:
     at = statement.value("at")
     middle = vectors.ZERO if at is None else typed_values.place(at, scope, "at")
     pen.lost = False
-    draw_traces(statement, pen, scope, placed([(curve, None)], pen, 1.0, pen.frame.point(middle)))
+    lines = filled(statement, scope, [(curve, None)], 1.0)
+    draw_traces(statement, pen, scope, placed(lines, pen, 1.0, pen.frame.point(middle)))
 
 
 def _size(statement: Statement, scope: Scope, word: str) -> float:

@@ -23,6 +23,10 @@ def check(statement: Statement, text: str) -> None:
     for part in STATEMENTS[statement.word].needs:
         _needs(statement, part)
     checks = {"arc": _arc, "screw": _screw, "with": _with, "frame": _frame, "place": _place}
+    angle = statement.part("angle")
+    if angle and "fill" in STATEMENTS[statement.word].parts and not statement.part("fill"):
+        help = "write how far apart its lines are: fill 2 mm angle 45 deg"
+        raise problem("E248", "'angle' is that of the 'fill'", angle.span, "", help)
     if statement.word in checks:
         checks[statement.word](statement)
     elif statement.word in ("line", "move"):

@@ -66,6 +66,7 @@ MODAL = (
 TIMES = ("in", "samples")
 TIMING_WORDS = (*TIMES, "speed", "turnspeed", "profile")  # set by a `stroke` for all of its lines
 CLAUSES = (*TIMES, *MODAL)
+FILL = ("fill", "angle")
 DARK_CLAUSES = tuple(word for word in CLAUSES if word not in LAMP)
 
 PARTS = {
@@ -106,6 +107,7 @@ PARTS = {
             "corner", "corner", "how far the path leaves a corner it runs through", "corner 0.1 mm"
         ),
         PartWord("light", "light", "the colour, or from one colour to another", "light red"),
+        PartWord("fill", "length", "lines inside what is closed, this far apart", "fill 2 mm"),
         PartWord("font", "font", "which letters; see: dqpaint list fonts", 'font "scripts"'),
         PartWord("height", "length", "how high: a capital letter, a whole drawing", "height 30 mm"),
         PartWord("width", "length", "how wide: the longest line, a whole drawing", "width 90 mm"),
@@ -218,7 +220,7 @@ STATEMENTS = {
                 meaning,
                 example,
                 head="value" if word in ("polygon", "star") else "",
-                parts=(*needs, *more, "at", *CLAUSES),
+                parts=(*needs, *more, "at", *FILL, *CLAUSES),
                 needs=needs,
                 moves=True,
             )
@@ -282,7 +284,7 @@ STATEMENTS = {
             "lettering; a further string in quotes is a further line",
             'text "Ada" height 30 mm',
             head="texts",
-            parts=("font", "height", "width", "at", "align", *CLAUSES),
+            parts=("font", "height", "width", "at", "align", *FILL, *CLAUSES),
             moves=True,
         ),
         StatementWord(
@@ -298,7 +300,7 @@ STATEMENTS = {
             "the lines of an SVG drawing, in its own colours",
             'svg "logo.svg" height 80 mm',
             head="texts",
-            parts=("height", "width", "at", "order", *CLAUSES),
+            parts=("height", "width", "at", "order", *FILL, *CLAUSES),
             moves=True,
         ),
         StatementWord(
@@ -392,9 +394,9 @@ FUNCTIONS = {
 # the names of a `def`, too, since drawings had their own before there were these.
 FREE = (
     *SHAPES,
-    *("as", "base", "colours", "corner", "cross", "dark", "detail", "height", "hue", "inner"),
-    *("jump", "left", "long", "max", "mirror", "order", "radius", "rainbow", "right", "smooth"),
-    *("unit", "width", "within"),
+    *("as", "base", "colours", "corner", "cross", "dark", "detail", "fill", "height", "hue"),
+    *("inner", "jump", "left", "long", "max", "mirror", "order", "radius", "rainbow", "right"),
+    *("smooth", "unit", "width", "within"),
 )
 RESERVED = frozenset(
     (*STATEMENTS, *PARTS, *RENAMED, *LITTLE_WORDS, "if", "else", "while")

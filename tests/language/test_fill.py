@@ -56,6 +56,8 @@ def test_holes_stay_empty_within_one_colour(tmp_path, colour: str, area: float) 
     size = sum(np.linalg.norm(np.diff(lines_of(one), axis=1), axis=2).sum() for one in made)
     assert size == pytest.approx(area)
     assert len(made) <= 4  # below, left, right, above of the hole
+    for one in made:  # no way leads across the hole
+        np.testing.assert_allclose(np.linalg.norm(one.cubic[1::2, 1], axis=1) / MM, 1.0)
     shades = {segment.light for segment in program.segments if segment.light is not None}
     assert len(shades) == (1 if colour == "red" else 2)
 
@@ -100,7 +102,7 @@ def test_letters_of_several_strokes_are_closed_where_these_touch() -> None:
 
 def test_time_and_light_are_shared_with_the_outline() -> None:
     text = "profile constant\ncorner jump\nrect width 20 mm height 20 mm fill 5 mm in 4 s light red to blue"
-    first, *_, last = [s for s in parse(text, "a.traj").segments if s.light is not None]
+    first, *_, last = (s for s in parse(text, "a.traj").segments if s.light is not None)
     assert isinstance(first.light, Light)
     assert isinstance(last.light, Light)
     assert (first.light.first, last.light.last) == (colours.NAMES["red"], colours.NAMES["blue"])

@@ -26,7 +26,8 @@ def lines_of(curve: PiecewiseCurve) -> np.ndarray:
 
 
 def test_a_circle_is_filled_by_its_chords_in_one_stroke() -> None:
-    text = "corner jump\nwith scale 2\ncircle radius 15 mm at (5, -7, 3) mm fill 1 mm angle 30 deg\nend"
+    circle = "circle radius 15 mm at (5, -7, 3) mm fill 1 mm angle 30 deg"
+    text = f"corner jump\nwith scale 2\n{circle}\nend"
     (filling,) = fillings(parse(text, "a.traj"), 1)
     lines = lines_of(filling) - 2 * np.array([5, -7, 3])
     np.testing.assert_allclose(np.linalg.norm(lines, axis=2), 30, rtol=2e-4)
@@ -101,7 +102,7 @@ def test_letters_of_several_strokes_are_closed_where_these_touch() -> None:
 
 
 def test_time_and_light_are_shared_with_the_outline() -> None:
-    text = "profile constant\ncorner jump\nrect width 20 mm height 20 mm fill 5 mm in 4 s light red to blue"
+    text = "corner jump\nrect width 20 mm height 20 mm fill 5 mm in 4 s light red to blue"
     first, *_, last = (s for s in parse(text, "a.traj").segments if s.light is not None)
     assert isinstance(first.light, Light)
     assert isinstance(last.light, Light)

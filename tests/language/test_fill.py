@@ -95,6 +95,13 @@ def test_corners_and_sides_along_the_lines_count_once() -> None:
     assert sorted(way[:, 0].tolist()) == [-1, 1]
 
 
+def test_a_line_that_only_grazes_is_none() -> None:
+    """Rounding may leave a line of no length, which no arm can be timed over."""
+    tip = np.array([[0, 0], [1, 0], [0.5, 1.5 + 1e-6]])
+    (way,) = hatch(np.stack([tip, np.roll(tip, -1, axis=0)], axis=1), 1.0, 0.0)
+    assert len(way) == 2
+
+
 def test_letters_of_several_strokes_are_closed_where_these_touch() -> None:
     text = 'text "A" font "futuram" height 30 mm{}'
     outlines = len(fillings(parse(text.format(""), "a.traj"), 0))

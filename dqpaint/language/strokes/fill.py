@@ -18,6 +18,7 @@ ColouredCurve = tuple[PiecewiseCurve, Colour | None]
 CLOSED = 1e-6  # of its size: as near are the ends of a closed stroke
 TURN = 256  # chords of a full circle
 BEND = 32  # of a Bezier curve
+SHORTEST = 1e-3  # of the spacing: shorter lines, as at a corner, are left out
 MOST_LINES = 5000  # from one side of the whole to the other
 Row = list[tuple[float, float]]  # left and right ends of the hatching at one height
 
@@ -99,7 +100,7 @@ def hatch(edges: Floats, spacing: float, angle: float) -> list[Floats]:
     ends, lines = crossing[order].reshape(-1, 2), line[order][::2]
     rows: dict[int, Row] = defaultdict(list)
     for number, (left, right) in zip(lines.tolist(), ends.tolist(), strict=True):
-        if right > left:
+        if right - left > SHORTEST * spacing:
             rows[number].append((left, right))
     ways = [np.array(way) * (1.0, spacing) @ back for way in _strung(rows)]
     return [np.column_stack([way, np.zeros(len(way))]) for way in ways]

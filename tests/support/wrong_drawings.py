@@ -197,6 +197,7 @@ task line|E267|1:6 line|help
 keep inside box (0,0,0) mm to (30,30,0) mm|E268|1:31 (30,30,0) mm|help
 face viewer within 180 deg|E268|1:20 180 deg|help
 wall below z = -50 mm by (0,10) mm|E268|1:26 (0,10) mm|help
+circle radius 30 mm fill 0.001 mm|E269|1:26 0.001 mm|help
 wall under z = 0|E109|1:6 under|help
 keep away from ball|E109|1:16 ball|help
 keep away from sphere at (0,0,0) mm|E115|1:1 keep away from sphere at (0,0,0) mm|help

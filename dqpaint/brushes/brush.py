@@ -85,7 +85,7 @@ class Brush(BaseModel):
         several: whether it has lamps apart from each other, so that a turn on the spot draws.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
     several: ClassVar[bool] = True
 

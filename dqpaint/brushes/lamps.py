@@ -17,7 +17,7 @@ MOST_BITS = 16
 class Lamp(BaseModel):
     """The powers that a lamp can have, as shares of its largest."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
     bits: Annotated[int, Field(ge=0, le=MOST_BITS, description="steps of its power; 0: any")] = 0
     gamma: Annotated[

@@ -47,7 +47,7 @@ class Disturbance(BaseModel):
         random_fields: the values that make it random where they are not 0; None if not known.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
     needs: ClassVar[Trait | None] = None
     random_fields: ClassVar[tuple[str, ...] | None] = None
 

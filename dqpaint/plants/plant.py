@@ -47,7 +47,7 @@ class Springs:
 class PlantOptions(BaseModel):
     """The options of a plant; each field's description has its unit."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
     def summary(self, card: Card) -> dict[str, Any]:
         """The values for a run's summary, with what follows from them for an arm."""

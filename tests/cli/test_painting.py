@@ -376,6 +376,22 @@ def test_help_and_check_start_without_the_heavy_libraries(dqpaint, words):
     assert done.stdout.splitlines()[-1] == "LOADED []"
 
 
+@pytest.mark.slow
+def test_a_run_loads_what_it_uses(tmp_path):
+    """Each of these takes a tenth of a second or more, and a plain run uses none of them."""
+    code = (
+        "import sys; from dqpaint.cli import main; sys.argv[0] = 'dqpaint'\n"
+        "try: main.run()\nexcept SystemExit as stop: assert not stop.code\n"
+        "heavy = ('scipy', 'matplotlib', 'mujoco', 'coal', 'jinja2', 'nicegui', 'distributed')\n"
+        "print('LOADED', [m for m in heavy if m in sys.modules])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, "draw", "star", "--size", "64x36"],
+        capture_output=True, text=True, check=True, cwd=tmp_path,
+    )  # fmt: skip
+    assert done.stdout.splitlines()[-1] == "LOADED []"
+
+
 def test_looking_ahead_needs_neither_the_simulator_nor_the_image_library(dqpaint):
     code = (
         "import sys; from dqpaint.planning.check import check\n"

@@ -16,7 +16,7 @@ class Gains(BaseModel):
     A field that is a `Literal` is a choice between forms of the law.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
     constant: ClassVar[dict[str, str]] = {}  # gains that cannot change on the way, and why
 
     def as_dict(self) -> dict[str, Value | str]:

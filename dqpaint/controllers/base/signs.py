@@ -37,7 +37,7 @@ SignRule = Callable[[Seen], Seen]
 
 
 class _Values(BaseModel):
-    model_config = ConfigDict(extra="forbid")
+    model_config = ConfigDict(extra="forbid", defer_build=True)
     delta: Delta = DEFAULT_DELTA
 
 

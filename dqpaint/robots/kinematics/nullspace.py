@@ -187,7 +187,7 @@ class SecondaryTask:
 
 
 class _Gain(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
     gain: float | None = Field(
         None, ge=0, le=MOST_GAIN, allow_inf_nan=False, description="how strongly, 0 to 20"
     )

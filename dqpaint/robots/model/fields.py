@@ -17,7 +17,7 @@ Positive = Annotated[float, Field(ge=LEAST, le=LARGEST, allow_inf_nan=False)]
 class Part(BaseModel):
     """One table of a card: unknown fields are rejected, and it is immutable."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
 
 class Mount(Part):

@@ -52,7 +52,7 @@ class Setup(NamedTuple):
 class Values(BaseModel):
     """The values of a resolver, each with its default and a description."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
 
 class Resolver(Protocol):

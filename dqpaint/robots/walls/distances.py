@@ -10,13 +10,15 @@ et al. 2019, whose Jacobians of squared distances are 2 d times these). A point 
 without length, a line a cylinder without ends, a sphere a capsule without length.
 """
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from scipy.spatial import ConvexHull
 
 from dqpaint import dq
 from dqpaint.dq import Floats
+
+if TYPE_CHECKING:
+    from scipy.spatial import ConvexHull
 
 TINY = 1e-12  # [m] and less is no direction
 TOUCHING = 1e-5  # [m] from a hull: what meets it is measured by how deep it is
@@ -121,7 +123,7 @@ def from_box(start: Floats, end: Floats, low: Floats, high: Floats) -> Contacts:
     return found
 
 
-def from_hull(start: Floats, end: Floats, hull: ConvexHull) -> Contacts:
+def from_hull(start: Floats, end: Floats, hull: "ConvexHull") -> Contacts:
     """Segments (m, 3) from a convex hull, signed: the least of |p - c| by a quadratic program."""
     import daqp
 

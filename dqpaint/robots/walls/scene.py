@@ -1,11 +1,10 @@
 """Walls of a drawing and an arm -> how far each is, and what joint rates change of it."""
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull
 
 from dqpaint import dq
 from dqpaint.dq import Floats
@@ -16,6 +15,9 @@ from dqpaint.robots.kinematics import Kinematics, collision_shapes, read_mesh
 from dqpaint.robots.urdf.meshes import MeshError, check_mesh
 from dqpaint.robots.walls import distances
 from dqpaint.robots.walls.distances import Contacts
+
+if TYPE_CHECKING:
+    from scipy.spatial import ConvexHull
 
 BEAM_LENGTH = 2.0  # [m] of the light's beam, along the tool's z axis
 LEAST_JOINTS_BETWEEN = 2  # joints between two links that are kept apart: neighbours touch by design
@@ -279,7 +281,9 @@ def among_walls(
     )
 
 
-def _hull(shape: walls.Hull) -> ConvexHull:
+def _hull(shape: walls.Hull) -> "ConvexHull":
+    from scipy.spatial import ConvexHull  # slow to import, and few drawings have a mesh
+
     try:
         check_mesh(shape.file)
         points, _ = read_mesh(str(shape.file), [shape.scale] * 3)

@@ -39,7 +39,11 @@ from dqpaint.render import HiddenLight, SceneArm, hidden_by_line
 from dqpaint.settings import Settings
 
 # run lengths suit black ground with dithered halos: smaller and faster than the default search
-PNG = [cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
+ENCODED = {
+    ".png": [cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE],
+    ".jpg": [cv2.IMWRITE_JPEG_QUALITY, 95, cv2.IMWRITE_JPEG_SAMPLING_FACTOR,
+             cv2.IMWRITE_JPEG_SAMPLING_FACTOR_444],  # red lines keep their edges
+}  # fmt: skip
 OVERLAY_EXPOSURE = 0.25  # exposure of the reference's lines below the light
 FILMS_KEPT = 1  # pictures of one painting that keep their films; the others keep the sums
 
@@ -88,9 +92,13 @@ class Picture:
     @property
     def png(self) -> bytes:
         """The image as a PNG file."""
-        done, data = cv2.imencode(".png", self.image[..., ::-1], PNG)
+        return self.encoded(".png")
+
+    def encoded(self, ending: str) -> bytes:
+        """The image as a file: .png or .jpg."""
+        done, data = cv2.imencode(ending, self.image[..., ::-1], ENCODED[ending])
         if not done:
-            raise DqpaintError("the picture could not be encoded as PNG")
+            raise DqpaintError(f"the picture could not be encoded as {ending}")
         return data.tobytes()
 
     def _repr_png_(self) -> bytes:

@@ -1,6 +1,8 @@
 """Scene and finished picture -> a video or animation of the growing picture."""
 
 import os
+import shutil
+import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
@@ -13,6 +15,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from dqpaint.clean_stream import printable
 from dqpaint.errors import DqpaintError
 from dqpaint.light import Image
 from dqpaint.light.camera import parse_exposure
@@ -28,8 +31,10 @@ SHORTEST_VIDEO = 2.0  # [s]: a shorter one slower
 FINAL_TIME = 1.5  # [s] the finished picture is shown
 WEBP_WIDTH = 640  # columns of an animation for a page
 WEBP_RATE = 12
+GIF_DITHER = 3  # -1 for none to 3, OpenCV's finest
 
 Progress = Callable[[float], None]
+Frame = NDArray[np.uint8]
 
 
 def frames(
@@ -39,7 +44,7 @@ def frames(
     count: int,
     progress: Progress,
     scene_arm: SceneArm | None = None,
-) -> Iterator[NDArray[np.uint8]]:
+) -> Iterator[Frame]:
     """The picture as it grows, (H, W, 3) each; the last frame is the picture itself.
 
     Each frame adds the light since the one before to the film. The arm, if it is shown, has its
@@ -92,25 +97,97 @@ def webm(
     Raises:
         DqpaintError: This build of OpenCV cannot write it.
     """
-    height, width = (
-        side - side % 2 for side in picture.image.shape[:2]
-    )  # colour has half the rows
+    count = count_frames(scene, VIDEO_RATE)
+    shown = frames(scene, picture, settings, count, progress, scene_arm)
+    return _vp9(shown, picture.image.shape, "video.webm", "VP90")
+
+
+def mp4(
+    scene: Scene,
+    picture: Picture,
+    settings: Settings,
+    progress: Progress,
+    scene_arm: SceneArm | None = None,
+) -> bytes:
+    """A video for slides: H.264 by an `ffmpeg` on the search path, else VP9, in MP4.
+
+    Arguments are those of `frames`.
+
+    Raises:
+        DqpaintError: Neither can be written.
+    """
+    count = count_frames(scene, VIDEO_RATE)
+    shown = frames(scene, picture, settings, count, progress, scene_arm)
+    program = shutil.which("ffmpeg")
+    if program is not None:
+        return _h264(shown, picture.image.shape, program)
+    return _vp9(shown, picture.image.shape, "video.mp4", "vp09")
+
+
+def _held(shown: Iterator[Frame], size: tuple[int, int]) -> Iterator[Frame]:
+    """The frames as blue, green and red, cut to a size; the last is held."""
+    width, height = size
+    for frame in shown:
+        last = np.ascontiguousarray(frame[:height, :width, ::-1])
+        yield last
+    yield from repeat(last, round(FINAL_TIME * VIDEO_RATE))
+
+
+def _even(shape: tuple[int, ...]) -> tuple[int, int]:
+    """Width and height of a video: colour has half the rows and columns."""
+    height, width = (side - side % 2 for side in shape[:2])
+    return width, height
+
+
+def _vp9(shown: Iterator[Frame], shape: tuple[int, ...], name: str, tag: str) -> bytes:
+    size = _even(shape)
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "video.webm"
-        fourcc = cv2.VideoWriter.fourcc(*"VP90")
+        path = Path(folder) / name
         with _silent_stderr():
-            writer = cv2.VideoWriter(str(path), fourcc, float(VIDEO_RATE), (width, height))
+            fourcc = cv2.VideoWriter.fourcc(*tag)
+            writer = cv2.VideoWriter(str(path), fourcc, float(VIDEO_RATE), size)
         if not writer.isOpened():
-            raise DqpaintError("this build of OpenCV has no VP9 encoder for --save video")
+            raise DqpaintError(f"this build of OpenCV has no VP9 encoder for a {path.suffix} file")
         try:
-            count = count_frames(scene, VIDEO_RATE)
-            for frame in frames(scene, picture, settings, count, progress, scene_arm):
-                shown = np.ascontiguousarray(frame[:height, :width, ::-1])
-                writer.write(shown)
-            for _ in range(round(FINAL_TIME * VIDEO_RATE)):
-                writer.write(shown)
+            for frame in _held(shown, size):
+                writer.write(frame)
         finally:
             writer.release()
+        return path.read_bytes()
+
+
+def _h264(shown: Iterator[Frame], shape: tuple[int, ...], program: str) -> bytes:
+    width, height = size = _even(shape)
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "video.mp4"
+        command = [
+            *(program, "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "bgr24"),
+            *("-video_size", f"{width}x{height}", "-framerate", str(VIDEO_RATE), "-i", "-"),
+            *("-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p"),
+            *("-movflags", "+faststart", "-y", str(path)),
+        ]
+        with (
+            tempfile.TemporaryFile() as said,
+            subprocess.Popen(command, stdin=subprocess.PIPE, stderr=said) as encoder,
+        ):
+            assert encoder.stdin is not None
+            try:
+                for frame in _held(shown, size):
+                    encoder.stdin.write(frame.tobytes())
+                encoder.stdin.close()
+                encoder.wait()
+            except OSError:  # it ended before its input did, and says why
+                encoder.wait()
+            except BaseException:
+                encoder.kill()
+                raise
+            said.seek(0)
+            why = said.read().decode(errors="replace").strip().rpartition("\n")[2]
+        if encoder.returncode or not path.exists():
+            raise DqpaintError(
+                f"{program} could not write H.264: {printable(why or 'it did not say why')}; "
+                "--save video needs no ffmpeg"
+            )
         return path.read_bytes()
 
 
@@ -135,6 +212,27 @@ def _silent_stderr() -> Iterator[None]:
         os.close(kept)
 
 
+def gif(
+    scene: Scene,
+    picture: Picture,
+    settings: Settings,
+    progress: Progress,
+    scene_arm: SceneArm | None = None,
+) -> bytes:
+    """An animated GIF of 256 colours, small and looped; arguments as those of `frames`.
+
+    Raises:
+        DqpaintError: This build of OpenCV cannot write it.
+    """
+    return _animation(
+        scene,
+        picture,
+        lambda count: frames(scene, picture, settings, count, progress, scene_arm),
+        ".gif",
+        [cv2.IMWRITE_GIF_DITHER, GIF_DITHER],
+    )
+
+
 def webp(
     scene: Scene,
     picture: Picture,
@@ -147,20 +245,36 @@ def webp(
     Raises:
         DqpaintError: This build of OpenCV cannot write it.
     """
+    quality = [cv2.IMWRITE_WEBP_QUALITY, 85]
+    return _animation(
+        scene,
+        picture,
+        lambda count: frames(scene, picture, settings, count, progress, scene_arm),
+        ".webp",
+        quality,
+    )
+
+
+def _animation(
+    scene: Scene,
+    picture: Picture,
+    shown: Callable[[int], Iterator[Frame]],
+    ending: str,
+    how: list[int],
+) -> bytes:
+    """A small animation that is looped; `shown` makes so many frames."""
     if not hasattr(cv2, "imencodeanimation"):
-        raise DqpaintError("this build of OpenCV writes no animated WebP; 4.12 and later do")
+        raise DqpaintError(f"this build of OpenCV writes no animated {ending}; 4.12 and later do")
     height, width = picture.image.shape[:2]
     scale = min(1.0, WEBP_WIDTH / width)
     size = max(1, round(scale * width)), max(1, round(scale * height))
     count = count_frames(scene, WEBP_RATE)
-    shown = [
-        cv2.resize(frame[..., ::-1], size, interpolation=cv2.INTER_AREA)
-        for frame in frames(scene, picture, settings, count, progress, scene_arm)
-    ]
     animation = cv2.Animation()
-    animation.frames = shown
+    animation.frames = [
+        cv2.resize(frame[..., ::-1], size, interpolation=cv2.INTER_AREA) for frame in shown(count)
+    ]
     animation.durations = [1000 // WEBP_RATE] * (count - 1) + [round(1000 * FINAL_TIME)]
-    done, data = cv2.imencodeanimation(".webp", animation, [cv2.IMWRITE_WEBP_QUALITY, 85])
+    done, data = cv2.imencodeanimation(ending, animation, how)
     if not done:
-        raise DqpaintError("the animation could not be encoded as WebP")
+        raise DqpaintError(f"the animation could not be encoded as {ending}")
     return bytes(np.asarray(data).tobytes())

@@ -328,7 +328,7 @@ class CameraSettings(Group):
         int,
         Field(ge=SMALLEST, le=LARGEST),
         Option(
-            "width and height of the picture, in pixels",
+            "width and height of the picture, in pixels; or square, portrait, a3@300dpi",
             "WxH",
             name="size",
             parts=("width", "height"),

@@ -17,6 +17,11 @@ DISTURBANCE = "twist=sine,x=0.02,frequency=2"
 SEVERAL = re.compile(r",(?=\s*\w+\s*=)")  # between the gains of one text
 
 Gain = float | tuple[float, ...] | tuple[tuple[float, ...], ...] | str
+SHAPES = {"square": (1080, 1080), "portrait": (1080, 1350)}  # [px]
+# ISO 216 [mm], the short side first.
+PAPER_SIZES = {
+    "a2": (420, 594), "a3": (297, 420), "a4": (210, 297), "a5": (148, 210), "a6": (105, 148),
+}  # fmt: skip
 PAPER = "paper"  # in place of gains: those of the law's paper
 
 
@@ -26,18 +31,30 @@ def read_path(value: object) -> object:
 
 
 def read_size(value: object) -> tuple[Any, ...]:
-    """Width and height [px] from `1280x720` or a pair.
+    """Width and height [px] from `1280x720`, `square`, `portrait`, `a3@300dpi` or a pair.
+
+    Paper lies on its long side; `a3-portrait@300dpi` stands. Without dpi it is 300.
 
     Raises:
         UsageError: anything else.
     """
     if isinstance(value, Sequence) and not isinstance(value, str) and len(value) == 2:
         return tuple(value)
-    found = re.fullmatch(r"([0-9]{1,6})x([0-9]{1,6})", value) if isinstance(value, str) else None
-    if found is None:
-        said = value[:40] if isinstance(value, str) else value
-        raise UsageError(f"size {said!r} is not WIDTHxHEIGHT in pixels, for example 1280x720")
-    return int(found[1]), int(found[2])
+    text = value if isinstance(value, str) else ""
+    if text in SHAPES:
+        return SHAPES[text]
+    if found := re.fullmatch(r"([0-9]{1,6})x([0-9]{1,6})", text):
+        return int(found[1]), int(found[2])
+    papers = "|".join(PAPER_SIZES)
+    if found := re.fullmatch(rf"({papers})(-portrait)?(?:@([0-9]{{1,4}})dpi)?", text):
+        dots = int(found[3] or 300) / 25.4
+        short, long = (round(dots * side) for side in PAPER_SIZES[found[1]])
+        return (short, long) if found[2] else (long, short)
+    said = value[:40] if isinstance(value, str) else value
+    raise UsageError(
+        f"size {said!r} is not WIDTHxHEIGHT in pixels, for example 1280x720, and none of square, "
+        f"portrait, a3@300dpi, a3-portrait@300dpi (paper: {', '.join(PAPER_SIZES)})"
+    )
 
 
 def read_gains(value: object) -> dict[str, Any]:

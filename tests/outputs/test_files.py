@@ -35,7 +35,7 @@ def made(painting, name):
     return registry.make_files(registry.choose_writers(name), painting)
 
 
-@pytest.mark.parametrize("name", ["csv", "film", "hdr", "json", "motion", "png"])
+@pytest.mark.parametrize("name", ["csv", "film", "hdr", "jpeg", "json", "motion", "png"])
 def test_every_format_is_the_same_twice(painting, name):
     files = made(painting, name)
     assert files == made(painting, name)
@@ -48,6 +48,13 @@ def test_png_reads_back(painting):
     image = cv2.imdecode(np.frombuffer(png, np.uint8), cv2.IMREAD_COLOR)
     np.testing.assert_array_equal(image[..., ::-1], painting.image)
     assert painting._repr_png_() == png
+
+
+def test_jpeg_reads_back_nearly(painting):
+    image = cv2.imdecode(np.frombuffer(made(painting, "jpeg")[".jpg"], np.uint8), cv2.IMREAD_COLOR)
+    off = np.abs(image[..., ::-1].astype(int) - painting.image)
+    assert off.mean() < 1
+    assert off.max() < 40
 
 
 @pytest.fixture

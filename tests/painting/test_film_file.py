@@ -2,6 +2,7 @@
 
 import io
 import json
+import sys
 import tracemalloc
 import zipfile
 
@@ -276,8 +277,8 @@ def test_movies_are_written_in_formats_that_play(tmp_path, monkeypatch):
     monkeypatch.setattr(video, "LONGEST_VIDEO", 1.0)
     painting = dqpaint.draw("star", plant="ideal", size=(161, 91))
     told = []
-    movies = registry.make_files(registry.choose_writers("video,webp"), painting, told.append)
-    assert list(movies) == [".webm", ".webp"]
+    movies = registry.make_files(registry.choose_writers("video,webp,gif"), painting, told.append)
+    assert list(movies) == [".webm", ".webp", ".gif"]
     assert len(told) > 20
     assert movies[".webm"][:4] == b"\x1a\x45\xdf\xa3"  # EBML
     (tmp_path / "a.webm").write_bytes(movies[".webm"])
@@ -293,6 +294,65 @@ def test_movies_are_written_in_formats_that_play(tmp_path, monkeypatch):
     done, animation = cv2.imdecodeanimation(np.frombuffer(movies[".webp"], np.uint8))
     assert done
     assert len(animation.frames) == 12
+    done, animation = cv2.imdecodeanimation(np.frombuffer(movies[".gif"], np.uint8))
+    assert done
+    assert len(animation.frames) == 12
+    last = animation.frames[-1][..., 2::-1].astype(int)
+    assert np.abs(last - painting.image).mean() < 6
+
+
+@pytest.fixture
+def ffmpeg(tmp_path, monkeypatch):
+    """A stand-in for ffmpeg, by its text; it is all that the search path has."""
+
+    def stands_in(text):
+        program = tmp_path / "ffmpeg"
+        program.write_text(f"#!{sys.executable}\nimport sys, pathlib\n{text}\n")
+        program.chmod(0o755)
+        monkeypatch.setenv("PATH", str(tmp_path))
+
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setattr(video, "SHORTEST_VIDEO", 0.2)
+    monkeypatch.setattr(video, "LONGEST_VIDEO", 0.2)
+    return stands_in
+
+
+def test_mp4_without_an_ffmpeg_is_vp9(ffmpeg, tmp_path):
+    painting = dqpaint.draw("star", plant="ideal", size=(161, 91))
+    (movie,) = registry.make_files(registry.choose_writers("mp4"), painting).values()
+    assert movie[4:8] == b"ftyp"
+    (tmp_path / "a.mp4").write_bytes(movie)
+    film = cv2.VideoCapture(str(tmp_path / "a.mp4"))
+    frames = []
+    while (read := film.read())[0]:
+        frames.append(read[1])
+    assert len(frames) == 5 + round(video.FINAL_TIME * 25)
+    assert np.abs(frames[-1][..., ::-1].astype(int) - painting.image[:90, :160]).mean() < 4
+
+
+def test_mp4_by_an_ffmpeg_has_every_frame(ffmpeg):
+    """It is asked for H.264 and given the pixels of each frame, the last one held."""
+    painting = dqpaint.draw("star", plant="ideal", size=(161, 91))
+    ffmpeg("pathlib.Path(sys.argv[-1]).write_bytes("
+           "' '.join(sys.argv[1:-1]).encode() + b'|' + sys.stdin.buffer.read())")  # fmt: skip
+    (movie,) = registry.make_files(registry.choose_writers("mp4"), painting).values()
+    asked, _, data = movie.partition(b"|")
+    assert b"-video_size 160x90 -framerate 25 " in asked
+    assert b"-c:v libx264 " in asked
+    frames = np.frombuffer(data, np.uint8).reshape(-1, 90, 160, 3)
+    assert len(frames) == 5 + round(video.FINAL_TIME * 25)
+    np.testing.assert_array_equal(frames[-1][..., ::-1], painting.image[:90, :160])
+
+
+@pytest.mark.parametrize("text", [
+    "sys.exit('Unknown encoder')",
+    "sys.stdin.buffer.read(); sys.exit('Unknown encoder')",
+])  # fmt: skip
+def test_an_ffmpeg_that_fails_is_said(ffmpeg, text):
+    painting = dqpaint.draw("star", plant="ideal", size=(161, 91))
+    ffmpeg(text)
+    with pytest.raises(DqpaintError, match="Unknown encoder; --save video"):
+        registry.make_files(registry.choose_writers("mp4"), painting)
 
 
 def test_a_scene_is_plain_data():

@@ -150,6 +150,19 @@ def test_python_takes_what_the_command_line_takes(keyword):
     assert all(other == first for other in others)
 
 
+@pytest.mark.parametrize(("size", "pixels"), [
+    ("square", (1080, 1080)),
+    ("portrait", (1080, 1350)),
+    ("a3@300dpi", (4961, 3508)),
+    ("a3-portrait", (3508, 4961)),
+    ("a6@72dpi", (420, 298)),
+])  # fmt: skip
+def test_sizes_of_pages_and_prints(size, pixels):
+    """By the tables of printers: A3 at 300 dpi is 4961x3508, A6 at 72 dpi 420x298."""
+    settings = make_settings(size=size)
+    assert (settings.width, settings.height) == pixels
+
+
 def test_several_gains_and_diagonals_stand_in_one_text():
     assert make_settings(gains="k=5, d=2").gains == {"k": 5, "d": 2}
     assert make_settings(gains="q=1,1,4").gains == {"q": "1,1,4"}
@@ -158,6 +171,8 @@ def test_several_gains_and_diagonals_stand_in_one_text():
 
 @pytest.mark.parametrize(("choice", "says"), [
     ({"size": 3}, "size 3 is not WIDTHxHEIGHT"),
+    ({"size": "a7@300dpi"}, "size 'a7@300dpi' is not WIDTHxHEIGHT"),
+    ({"size": "a2@600dpi"}, "8192"),
     ({"size": (1, 2, 3)}, "size .* is not WIDTHxHEIGHT"),
     ({"size": ("a", 36)}, "width 'a' should be a valid integer"),
     ({"gains": 3}, "gain 3 gives no names with values, for example k=20"),

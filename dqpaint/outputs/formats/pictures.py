@@ -15,11 +15,17 @@ def png(painting: "paint.Painting") -> Files:
     return encode_pictures(painting.pictures)
 
 
-def encode_pictures(taken: "Sequence[picture.Picture]") -> dict[str, bytes]:
-    """Pictures as PNG by their endings; if there are several, each has the name of its view."""
+def encode_pictures(taken: "Sequence[picture.Picture]", ending: str = ".png") -> dict[str, bytes]:
+    """Pictures by their endings; if there are several, each has the name of its view."""
     if len(taken) == 1:
-        return {".png": taken[0].png}
-    return {f"-{shot.name}.png": shot.png for shot in taken}
+        return {ending: taken[0].encoded(ending)}
+    return {f"-{shot.name}{ending}": shot.encoded(ending) for shot in taken}
+
+
+@writer("jpeg", ".jpg")
+def jpeg(painting: "paint.Painting") -> Files:
+    """The pictures as JPEG, one a view: for messages and pages."""
+    return encode_pictures(painting.pictures, ".jpg")
 
 
 @writer("film", "-film.npz")
@@ -49,6 +55,24 @@ def video(painting: "paint.Painting", progress: Progress) -> bytes:
 
     with painting.scene_arm() as staging:
         return movies.webm(painting.scene, painting.picture, painting.settings, progress, staging)
+
+
+@writer("mp4", ".mp4")
+def mp4(painting: "paint.Painting", progress: Progress) -> bytes:
+    """The painting as it grows, for slides: H.264 by the system's ffmpeg, else VP9."""
+    from dqpaint.painting import video as movies
+
+    with painting.scene_arm() as staging:
+        return movies.mp4(painting.scene, painting.picture, painting.settings, progress, staging)
+
+
+@writer("gif", ".gif")
+def gif(painting: "paint.Painting", progress: Progress) -> bytes:
+    """The painting as it grows, small, with 256 colours: where nothing else plays."""
+    from dqpaint.painting import video as movies
+
+    with painting.scene_arm() as staging:
+        return movies.gif(painting.scene, painting.picture, painting.settings, progress, staging)
 
 
 @writer("webp", ".webp")

@@ -382,7 +382,7 @@ def test_a_run_loads_what_it_uses(tmp_path):
     code = (
         "import sys; from dqpaint.cli import main; sys.argv[0] = 'dqpaint'\n"
         "try: main.run()\nexcept SystemExit as stop: assert not stop.code\n"
-        "heavy = ('scipy', 'matplotlib', 'mujoco', 'coal', 'jinja2', 'nicegui', 'distributed')\n"
+        "heavy = ('scipy', 'matplotlib', 'mujoco', 'jinja2', 'nicegui', 'distributed')\n"
         "print('LOADED', [m for m in heavy if m in sys.modules])"
     )
     done = subprocess.run(

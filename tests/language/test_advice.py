@@ -77,7 +77,6 @@ def leaf~line by (9, 0) mm~end~leaf|E120|4:1|to draw what a 'def' names, write: 
 let r = 3 mm~LET r = 3 mm|E120|2:1|did you mean 'let'?
 repeat i from -2 to -5~line by (i*mm, 0)~end|E222|1:21|write: repeat i from -5 to -2, and count down with -7 - i
 repeat i from 2 to -2~line by (i*mm, 0)~end|E222|1:20|write: repeat i from -2 to 2, and count down with -i
-light rainbow|E205|1:7|draw it in parts: repeat i from 0 to 35, each with light hsv(10*i deg)
 rect (10, 20) mm|E111|1:6|for example: rect width 60 mm height 30 mm at (0, 0)
 square 20 mm|E120|1:1|a square is a rectangle: rect width 20 mm height 20 mm
 triangle 20 mm|E120|1:1|of equal sides: polygon 3 radius 20 mm

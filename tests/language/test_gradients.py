@@ -81,6 +81,31 @@ def test_motions_shine_with_the_integral_of_the_colours() -> None:
         np.testing.assert_allclose(energy(text), (0.25, 0.5, 0.25), atol=2e-3)
 
 
+@pytest.mark.parametrize("bend", ["t", "t^2/360 deg"])
+def test_the_colour_of_a_curve_is_a_formula_of_its_parameter(bend: str) -> None:
+    """Where the light is tells the parameter: on a circle, the angle, however fast it is run."""
+    text = f"curve polar(40 mm, {bend}) for t from 10 deg to 350 deg light hsv(t, 1, 0.5)"
+    motion = plan(parse(f"period 1 ms\n{text}", "a.traj"), IDENTITY)
+    lit = motion.lit[:-1]
+    x, y = (0.5 * (motion.points[1:] + motion.points[:-1]))[lit].T[:2]
+    angle = np.arctan2(y, x) % (2 * np.pi)
+    t = angle if bend == "t" else np.sqrt(angle * 2 * np.pi)
+    wanted = [[colours.linear(c) for c in colorsys.hsv_to_rgb(h / 2 / np.pi, 1, 0.5)] for h in t]
+    np.testing.assert_allclose(motion.light[:-1][lit], wanted, atol=4e-3)
+    again = parse(f"{text}\nline by (1, 0) mm light on", "a.traj").segments
+    assert again[-1].light == again[1].light
+
+
+def test_fast_colours_are_as_close_as_need_be() -> None:
+    text = "curve (t*1 mm, 0, 0) for t from 0 to 60 light rgb(0.5+0.5*sin(3*t*rad), 0, 0) even"
+    (segment,) = parse(text, "a.traj").segments
+    assert segment.light is not None
+    assert segment.light.even
+    for share in np.linspace(0, 1, 333):
+        red = colours.linear(0.5 + 0.5 * np.sin(180 * share))
+        assert segment.light.at(share)[0] == pytest.approx(red, abs=4e-3)
+
+
 def test_one_colour_has_no_way() -> None:
     with pytest.raises(ScriptError) as caught:
         parse("line by (9, 0) mm light red hue", "a.traj")

@@ -149,7 +149,7 @@ text "Ada" height 1e-300 mm|E220|1:19 1e-300 mm|
 line by (1,0) mm samples 2.5|E221|1:26 2.5|
 repeat i from 5 to 1~end|E222|1:20 1|help
 let r = 1 mm~let r = 2 mm|E230|2:5 r|help
-curve polar(t*mm, t*rad) for t from 0 to 1 light hsv(t)|E205|1:54 t|help
+curve polar(t*mm, t*rad) for t from 0 to 1 light hsv(t) to red|E109|1:50 hsv(t) to red|help
 curve polar(t*mm, t*rad) for t from 0 to 1 light red in t*1 s|E205|1:57 t|help
 line to () mm|E105|1:10 )|help
 line to (1,) mm|E105|1:12 )|help

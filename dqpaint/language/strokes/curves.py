@@ -4,19 +4,29 @@ import numpy as np
 
 from dqpaint.diagnostics import Problem, ScriptError, Span, problem
 from dqpaint.language.pen.pen import Pen, pose_problem
-from dqpaint.language.syntax.tree import Expression, Statement, names_in, size_of
+from dqpaint.language.strokes.modal_words import light_of
+from dqpaint.language.syntax.tree import (
+    Expression,
+    LightWords,
+    Part,
+    Statement,
+    names_in,
+    size_of,
+)
 from dqpaint.language.values import typed_values, vectors
 from dqpaint.language.values.evaluate import evaluate
 from dqpaint.language.values.scope import MOST_CURVE_STEPS, Budget, Scope
 from dqpaint.language.values.values import PointValue, Quantity, Value, describe, is_zero
 from dqpaint.language.values.vectors import Frame
 from dqpaint.language.vocabulary.units import ANGLE, LENGTH, TIME, Dimension
-from dqpaint.program import Curve, Floats, Formula, Taylor, Vector
+from dqpaint.program import Colour, Curve, Floats, Formula, Light, Taylor, Vector, colours
 
 GAP = 1e-9  # [m] within which a curve starts where the tool is
 PIECES = 64  # a curve is looked at in so many places before it is believed
 MOST_PIECES = 1 << 16  # of a curve whose heading changes fast
 LARGEST = 1e30  # of its series: squares of it are still a computer's numbers
+LEAST_COLOURS, MOST_COLOURS = 64, 4096  # of a light that changes with a curve's parameter
+FINE = 1 / 512  # of full brightness
 UPRIGHT = 1e-6  # sine of the least angle between a heading and the axis it turns about
 
 
@@ -33,6 +43,59 @@ def curve(statement: Statement, frame: Frame, scope: Scope, pen: Pen) -> tuple[C
         raise Problem(error.diagnostics[0]) from None
     x, y, z = xyz.tolist()
     return Curve(formula, lower, upper), list(zip(x, y, z, strict=True))
+
+
+def sets_colour(statement: Statement, part: Part) -> bool:
+    """Whether a part is a light that changes with the parameter of a curve."""
+    name = statement.name if statement.word == "curve" else None
+    return part.word == "light" and name is not None and name.text in names_in(part.value)
+
+
+def light_along(statement: Statement, part: Part, curve: Curve, pen: Pen, scope: Scope) -> Light:
+    """The light of a curve whose colour is a formula of its parameter.
+
+    It is mixed between colours so close that half-way it is off by no more than `FINE`.
+    """
+    assert statement.name is not None
+    assert isinstance(part.value, LightWords)
+    words, name = part.value, statement.name.text
+    if words.rest:
+        message = f"a colour that changes with '{name}' is one formula, without 'to'"
+        raise problem("E109", message, words.span, "", f"for example: light hsv({name})")
+    _, _, dimension = _ends(statement.values[1], statement.values[2], scope)
+    known = scope.values_of(names_in(words))
+
+    def colour(t: float) -> Colour:
+        names = {**known, name: Quantity(t, dimension)}
+        light = light_of(words, pen.state, scope.with_names(names, Budget(MOST_CURVE_STEPS)))
+        return colours.DARK if light is None else light.first
+
+    at = np.linspace(curve.lower, curve.upper, LEAST_COLOURS + 1)
+    shades = np.array([colour(t) for t in at.tolist()])
+    while True:
+        between = np.array([colour(t) for t in (0.5 * (at[1:] + at[:-1])).tolist()])
+        off = np.abs(between - 0.5 * (shades[1:] + shades[:-1])).max()
+        if off <= FINE or len(at) > MOST_COLOURS:
+            break
+        shades = np.insert(shades, np.arange(1, len(at)), between, axis=0)
+        at = np.linspace(curve.lower, curve.upper, 2 * len(at) - 1)
+    share = _length_shares(curve, len(at) - 1)
+    new = np.append(True, np.diff(share) > 0.0)
+    inside = new & (share > 0.0) & (share < 1.0)
+    stops = zip(share[inside].tolist(), map(tuple, shades[inside].tolist()), strict=True)
+    first, last = (tuple(shade) for shade in shades[[0, -1]].tolist())
+    return Light(first, last, words.even, between=tuple(stops))
+
+
+def _length_shares(curve: Curve, pieces: int) -> Floats:
+    """The share of its length at the ends of even pieces of a curve's parameter (N + 1,)."""
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    at = np.linspace(curve.lower, curve.upper, pieces + 1)
+    u = (0.5 * (at[1:] + at[:-1]) + 0.5 * np.diff(at) * nodes[:, None]).ravel()
+    series = curve.formula(Taylor.variable(u))
+    speed = np.linalg.norm([one.coefficients[1] for one in series], axis=0)
+    lengths = weights @ speed.reshape(len(nodes), pieces)
+    return np.asarray(np.append(0.0, np.cumsum(lengths)) / lengths.sum())
 
 
 def outside_of_formula(mistake: Problem, statement: Statement, text: str) -> Problem:

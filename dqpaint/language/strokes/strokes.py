@@ -50,7 +50,7 @@ def draw(statement: Statement, pen: Pen, scope: Scope) -> None:
 def _with_clauses(statement: Statement, state: StrokeState, pen: Pen, scope: Scope) -> StrokeState:
     for part in statement.parts:
         own_light = part.word == "light" and statement.word in ("hold", "step")
-        if part.word in MODAL and not own_light:
+        if part.word in MODAL and not own_light and not curves.sets_colour(statement, part):
             state = apply_clause(state, part, scope, pen, pen.frame)
     return state
 
@@ -206,6 +206,10 @@ def _curve(statement: Statement, pen: Pen, scope: Scope) -> None:
     tool, orientation = tool_orientation.orientation_at_end(
         pen, mode, end, statement.span, axis, turn
     )
+    part = statement.part("light")
+    if part is not None and curves.sets_colour(statement, part):
+        light = curves.light_along(statement, part, curve, pen, scope)
+        pen.state = replaced(pen.state, light=light, shone=light)
     whole = timing(statement, pen.state, scope)
     pen.draw(curve, tool, whole, pen.state.light, Pose(end, orientation), statement.span)
 

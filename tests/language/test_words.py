@@ -66,6 +66,10 @@ def test_examples_of_parts(word: str, part: str) -> None:
         "photo": 'photo "astronaut.jpg"' + " as hatch" * (part != "as"),
         **{word: STATEMENTS[word].example for word in SHAPES},
     }[word]
+    if part == "angle" and "fill" in STATEMENTS[word].parts:
+        base += " fill 2 mm"
+    if part in ("fill", "angle"):
+        base = base.replace('"A" "B"', '"O"')  # the only one that is closed
     if part == "via":
         base = "arc to (-80, 0) mm"
     elif word == "screw" and part in ("to", "tool"):

@@ -51,7 +51,7 @@ def test_examples_of_statements(word: str, tmp_path: Path) -> None:
     ("word", "part"),
     [(w, p) for w, known in STATEMENTS.items() for p in known.parts if known.moves],
 )
-def test_examples_of_parts(word: str, part: str) -> None:
+def test_examples_of_parts(word: str, part: str, tmp_path: Path) -> None:
     base = {
         "line": "line by (9, 9) mm",
         "move": "move by (9, 9) mm",
@@ -69,7 +69,7 @@ def test_examples_of_parts(word: str, part: str) -> None:
     if part == "angle" and "fill" in STATEMENTS[word].parts:
         base += " fill 2 mm"
     if part in ("fill", "angle"):
-        base = base.replace('"A" "B"', '"O"')  # the only one that is closed
+        base = base.replace('"A" "B"', '"O"')  # which is closed
     if part == "via":
         base = "arc to (-80, 0) mm"
     elif word == "screw" and part in ("to", "tool"):
@@ -88,7 +88,12 @@ def test_examples_of_parts(word: str, part: str) -> None:
         base = "arc radius 20 mm to (70, 0) mm right"
     example = "tool keep" if part == "tool" and word != "step" else PARTS[part].example
     line = base if f" {part} " in base else f"{base} {example}"
-    assert parse(f"start at (90, 0) mm\n{line}", HERE, Path(HERE)).segments
+    here = Path(HERE)
+    if word == "svg" and part in ("fill", "angle"):
+        here = tmp_path / "a.traj"
+        box = '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0H9V9Z"/></svg>'
+        (tmp_path / "logo.svg").write_text(box)
+    assert parse(f"start at (90, 0) mm\n{line}", str(here), here).segments
 
 
 def test_aliases_lead_to_words() -> None:

@@ -60,6 +60,7 @@ _ROOMS = {
     "Painting": "dqpaint.painting.paint",
     "develop": "dqpaint.api",
     "draw": "dqpaint.api",
+    "load_ipython_extension": "dqpaint.editors.notebook_cells",
     "plot": "dqpaint.studies.plot",
     "preview": "dqpaint.api",
     "save": "dqpaint.api",

@@ -11,9 +11,7 @@ from tests.support.commands import LINE
 
 
 def test_what_options_stand_for():
-    line = (
-        '--controller p --gain k=5 --ghost --size=64x36 --disturb "twist=x=1" --disturb noise=1'
-    )
+    line = '--controller p --gain k=5 --ghost --size=64x36 --disturb "twist=x=1" --disturb noise=1'
     assert read_options(line) == {
         "controller": "p", "gains": "k=5", "ghost": True, "size": "64x36",
         "disturb": ["twist=x=1", "noise=1"],

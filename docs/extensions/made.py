@@ -23,7 +23,7 @@ ROOT = Path(__file__).parents[2]
 GENERATED = ROOT / "docs/generated"
 PICTURES = GENERATED / "pictures"
 EXAMPLES = ROOT / "trajectories"
-LAST = re.compile(r"\d+ drawings? checked|.*dqpaint explain")
+LAST = re.compile(r"\d+ drawings? checked|.*dqpaint explain|a\.traj: .* steps of ")
 
 
 @dataclass(frozen=True)

@@ -131,3 +131,18 @@ def test_what_can_not_be_filled(text: str, code: str) -> None:
     with pytest.raises(ScriptError) as caught:
         parse(text, "a.traj")
     assert caught.value.diagnostics[0].code == code
+
+
+def test_outlines_that_are_met_too_often_are_refused_before_they_are(tmp_path):
+    """A comb of a thousand teeth, each met by thousands of lines."""
+    teeth = "".join(f"L{x} 100 L{x + 0.05} 0 " for x in np.arange(0.1, 100.0, 0.1))
+    (tmp_path / "comb.svg").write_text(
+        "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 100'>"
+        f"<path d='M0 0 {teeth} L100 -5 L0 -5 Z' stroke='red'/></svg>"
+    )
+    here = tmp_path / "a.traj"
+    text = 'move to (0, 0) mm\nsvg "comb.svg" height 100 mm fill {} mm\n'
+    parse(text.format(2), "a", here)
+    with pytest.raises(ScriptError) as caught:
+        parse(text.format(0.03), "a", here)
+    assert [one.code for one in caught.value.diagnostics] == ["E269"]

@@ -152,3 +152,17 @@ def test_a_bar_gives_the_same_light_however_its_lamps_are_joined(joined):
     camera = camera_for(sweep, "front", (320, 200))
     film = expose(sweep, camera)
     assert film.planes[0].sum() == pytest.approx(59 * sweep.period, rel=1e-3)
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_of_a_line_longer_than_the_picture_what_is_in_it_is_kept(axis):
+    camera = flat_camera(200, 160)
+    size = (200, 160)[axis]
+    corners = np.full((2, 2, 2), 50.0)
+    corners[:, :, axis] = -100.0, 300.0
+    corners[1, :, 1 - axis] = 60.0
+    ends = at_pixels(corners.reshape(4, 2), camera).reshape(2, 2, 3)
+    sheet = Sheet(ends, np.ones((1, 3)), np.full((1, 2, 3), 0.5), np.zeros(1, int))
+    parts = list(sheet_cells(sheet, camera, 6.0))
+    inside = (size - 1 + 2 * 6.0) / 400.0
+    assert sum(p.energy[0].sum() for p in parts) == pytest.approx(inside, abs=1.01 / 400)

@@ -20,6 +20,7 @@ TURN = 256  # chords of a full circle
 BEND = 32  # of a Bezier curve
 SHORTEST = 1e-3  # of the spacing: shorter lines, as at a corner, are left out
 MOST_LINES = 5000  # from one side of the whole to the other
+MOST_CROSSINGS = 1_000_000  # of lines and outlines
 Row = list[tuple[float, float]]  # left and right ends of the hatching at one height
 
 
@@ -59,6 +60,9 @@ def filled(
             message = f"this fill would have more than {MOST_LINES:,} lines"
             help = f"the least is: fill {math.ceil(1e6 * size * scale / MOST_LINES) / 1e3:g} mm"
             raise problem("E269", message, node.span, "", help)
+        if crossings(edges, spacing, turn) > MOST_CROSSINGS:
+            message = f"the lines of this fill would meet its outlines {MOST_CROSSINGS:,} times"
+            raise problem("E269", message, node.span, "", "a larger distance has fewer lines")
         made = [(piecewise.straight(way), colour) for way in hatch(edges, spacing, turn)]
         out += stroke_order.order_lines(made).lines if made else []
     return out
@@ -75,6 +79,12 @@ def chords(curve: PiecewiseCurve) -> Floats:
     within = np.arange(len(piece)) - np.repeat(np.cumsum(count) - count, count)
     points = piecewise.derivatives(curve, piece, within / count[piece])[0][:, :2]
     return np.stack([points, np.roll(points, -1, axis=0)], axis=1)
+
+
+def crossings(edges: Floats, spacing: float, angle: float) -> float:
+    """About how often lines of a hatching meet the edges (N, 2, 2) of polygons."""
+    way = edges[:, 1] - edges[:, 0]
+    return float(np.abs(way @ (-math.sin(angle), math.cos(angle))).sum()) / spacing
 
 
 def hatch(edges: Floats, spacing: float, angle: float) -> list[Floats]:

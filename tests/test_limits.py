@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import pytest
 
+import dqpaint
 from dqpaint.core import LARGEST_MAX_SAMPLES, user_files
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.language import ScriptError, parse
@@ -15,8 +16,11 @@ from dqpaint.language.expansion import includes
 from dqpaint.language.imports import point_files
 from dqpaint.language.imports.svg import reader
 from dqpaint.light.camera import views
+from dqpaint.light.sources import from_motion
 from dqpaint.motion import schedule, survey
+from dqpaint.robots.urdf import tree
 from dqpaint.settings import groups, make_settings
+from dqpaint.studies.kinds import sweep
 
 MOST = 12
 TEXT = "line by (1, 0) mm\n"
@@ -140,3 +144,30 @@ def test_bytes_of_a_file_that_is_drawn(name, where, data, line, tmp_path, monkey
     assert codes_of(lambda: parse(text, "a", here)) == []
     monkeypatch.setattr(where, "MOST_BYTES", len(data) - 1)
     assert codes_of(lambda: parse(text, "a", here)) == ["E294"]
+
+
+def test_flashes_of_a_drawing(monkeypatch):
+    monkeypatch.setattr(from_motion, "MOST_FLASHES", 10)
+    text = "period 125 ms\nline to (30, 0) mm in {} s strobe 8 Hz 50%\n"
+    dqpaint.preview(text=text.format(1.25), size=(16, 16))
+    with pytest.raises(DqpaintError, match="flashes"):
+        dqpaint.preview(text=text.format(1.375), size=(16, 16))
+
+
+def test_lengths_of_a_urdf():
+    assert tree.parse_numbers("1 -1000 0", tree.FARTHEST).tolist() == [1.0, -1000.0, 0.0]
+    assert not tree.parse_numbers("1 -1000.001 0", tree.FARTHEST).size
+
+
+def test_runs_of_a_sweep(monkeypatch):
+    class PassedError(Exception):
+        pass
+
+    def passed(_axes):
+        raise PassedError
+
+    monkeypatch.setattr(sweep, "combinations", passed)
+    for most, outcome in ((12, PassedError), (11, UsageError)):
+        monkeypatch.setattr(sweep, "MOST_RUNS", most)
+        with pytest.raises(outcome):
+            dqpaint.sweep("star", {"k": (5, 10, 20)}, controller="p", plant="ideal", runs=4)

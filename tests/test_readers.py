@@ -3,8 +3,10 @@
 `tests/tools/fuzz.py` goes on from here with as many as there is time for.
 """
 
+import io
 import random
 import re
+import zipfile
 
 import pytest
 
@@ -23,7 +25,10 @@ from tests.support.readers import CORPUS, READERS, Reader, attempt, corpus, fini
 EACH = 25
 EDGES = [  # a reader, where its limit stands, and how much of it a seed has
     ("image", images, "LARGEST_IMAGE", len), ("image", images, "MOST_PIXELS", lambda _: 7 * 9),
-    ("film", film_file, "LARGEST_FILE", len), ("URDF", tree, "LARGEST_FILE", len),
+    ("film", film_file, "LARGEST_FILE", len),
+    ("film", film_file, "LARGEST_UNPACKED",
+     lambda data: sum(one.file_size for one in zipfile.ZipFile(io.BytesIO(data)).infolist())),
+    ("URDF", tree, "LARGEST_FILE", len),
     ("URDF", tree, "MOST_LINKS", lambda data: data.count(b"<link name=")),
     ("URDF", tree, "MOST_JOINTS", lambda data: data.count(b'type="revolute"')),
     ("URDF", xml_tree, "MOST_ELEMENTS", lambda data: len(re.findall(rb"<\w", data))),

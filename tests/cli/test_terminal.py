@@ -43,6 +43,7 @@ def test_blocks_of_black_and_of_tiny_pictures():
 
 
 def test_pictures_are_for_terminals_in_full_colour(monkeypatch):
+    monkeypatch.setenv("TERM", "xterm-256color")
     monkeypatch.setenv("COLORTERM", "truecolor")
     monkeypatch.delenv("NO_COLOR", raising=False)
     assert terminal.shows_pictures(Tty())

@@ -76,7 +76,7 @@ WRONG = [
     (("draw", "line.traj", "--view", "back"), 2, "'back'"),
     (("draw", "line.traj", "--from", "bed"), 2, "'bed'"),
     (("draw", "line.traj", "--ev", "nan"), 2, "ev"),
-    (("draw", "line.traj", "--save", "png,gif"), 2, "'gif'"),
+    (("draw", "line.traj", "--save", "png,bmp"), 2, "'bmp'"),
     (("draw", "line.traj", "--save", ","), 2, "nothing to save"),
     (("draw", "line.traj", "--out", "no/such/x"), 1, "'no/such'"),
     (("draw", "line.traj", "--out", "/proc/"), 1, "cannot be written"),

@@ -99,7 +99,6 @@ def setup(app):
     app.add_lexer("traj", TrajLexer)
     app.add_directive("traj", directives.Traj)
     app.add_directive("picture", directives.Picture)
-    app.add_directive("said", directives.Said)
     app.connect("builder-inited", lambda _app: generated_pages.write(made.GENERATED))
     app.connect("env-before-read-docs", _all_if_changed)
     app.connect("source-read", _equations)

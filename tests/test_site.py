@@ -99,7 +99,7 @@ def test_the_cheat_sheet_is_one_page(site, tmp_path):
     ("{traj}", "line to (60, 20)", "no drawing"),
     ("{traj}\n:wrong:\n", "line to (60, 20) mm", "nothing is wrong"),
     ("{picture}", "dqpaint draw star --controler p", "--controler"),
-    ("{said}", "dqpaint explain nobody", "nobody"),
+    ("{picture}", "dqpaint explain nobody", "nobody"),
 ])  # fmt: skip
 def test_a_lie_is_no_page(kind, text, said, tmp_path):
     """A drawing with an error, an error that is none, a renamed option end the build."""

@@ -1,4 +1,4 @@
-"""`{traj}`, `{picture}`, `{said}`: a text or a command -> its picture, and what dqpaint says."""
+"""`{traj}` and `{picture}`: a text or a command -> its picture, and what dqpaint says."""
 
 import json
 import shlex
@@ -67,21 +67,6 @@ class Picture(SphinxDirective):
         text = f"$ {line}"
         return [_beside([nodes.literal_block(text, text, language="console"),
                          _picture(result.picture, line)], "command")]  # fmt: skip
-
-
-class Said(SphinxDirective):
-    """What a command prints."""
-
-    has_content = True
-
-    def run(self) -> list[nodes.Node]:
-        """The command and its words."""
-        line = " ".join(self.content)
-        result = made.of_command(tuple(shlex.split(line)[1:]))
-        if result.code:
-            raise self.error(f"{line}: {result.said}")
-        text = f"$ {line}\n{result.said}"
-        return [nodes.literal_block(text, text, language="console")]
 
 
 def _picture(name: str, alternative: str) -> nodes.Node:

@@ -77,11 +77,10 @@ def _explained() -> Iterator[tuple[str, str]]:
 
 def _explanation(one: Any) -> str:
     from dqpaint.cli.listing import value_line
-    from dqpaint.core.texts.mathematics import latex_equation, unicode_prose
+    from dqpaint.core.texts.mathematics import latex_block, unicode_prose
 
     sections = one.sections
-    lines = " \\\\\n".join(map(latex_equation, sections.equations))
-    equations = f"```math\n\\begin{{gather*}}\n{lines}\n\\end{{gather*}}\n```" if lines else ""
+    equations = latex_block(sections.equations) if sections.equations else ""
     about = [
         f"**{label.capitalize()}.** " + _capital(_plain(unicode_prose(text)))
         for label, text in sections.texts.items()

@@ -9,7 +9,6 @@ import io
 import json
 import logging
 import os
-import re
 import shutil
 import sys
 import tempfile
@@ -23,7 +22,6 @@ ROOT = Path(__file__).parents[2]
 GENERATED = ROOT / "docs/generated"
 PICTURES = GENERATED / "pictures"
 EXAMPLES = ROOT / "trajectories"
-LAST = re.compile(r"\d+ drawings? checked|.*dqpaint explain|a\.traj: .* steps of ")
 
 
 @dataclass(frozen=True)
@@ -72,16 +70,17 @@ def answer(*words: str) -> tuple[str, int]:
 
 def of_drawing(text: str, files: Mapping[str, str], options: tuple[str, ...]) -> Made:
     """A drawing: what `check` finds, and its reference picture where there is no error."""
+    from dqpaint.planning.check import check
 
     def make(folder: Path) -> tuple[str, int, Path | None]:
         for name, data in files.items():
             (folder / name).write_text(data, "utf-8")
         (folder / "a.traj").write_text(text, "utf-8")
-        said, code = answer("check", "a.traj")
-        if code:
-            return _of_findings(said), code, None
+        found = check("a.traj")
+        if found.errors:
+            return found.told(brief=True), 1, None
         _, failed = answer("preview", "a.traj", *options, "--out", "a.png")
-        return _of_findings(said), code, None if failed else folder / "a.png"
+        return found.told(brief=True), 0, None if failed else folder / "a.png"
 
     return _kept(json.dumps(["drawing", text, dict(files), options]), make, bool(files))
 
@@ -119,12 +118,6 @@ def _kept(
     made = Made(said, f"{key}.png" if picture else "", code)
     record.write_text(json.dumps(asdict(made)), "utf-8")
     return made
-
-
-def _of_findings(said: str) -> str:
-    """What `check` prints, without its count and the advice to explain a code."""
-    lines = [line for line in said.splitlines() if not LAST.match(line)]
-    return "\n".join(lines).strip()
 
 
 def forget_others(begin: float) -> None:

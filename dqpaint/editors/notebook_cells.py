@@ -5,13 +5,16 @@ those of the command line: `%%traj --controller hinf --size 640x360`. Without an
 reference picture is shown.
 """
 
-import inspect
 import shlex
 import sys
 from typing import Any
 
 from dqpaint import api
 from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.settings import COMMANDS, SETTINGS, check_keywords, settings_of
+
+KEYWORDS = {setting.name: keyword for keyword, setting in SETTINGS.items()}
+"""The keyword in Python of each option."""
 
 
 def traj(line: str, cell: str) -> Any:
@@ -23,8 +26,9 @@ def traj(line: str, cell: str) -> Any:
     """
     try:
         choices = read_options(line)
-        shown = inspect.signature(api.preview).parameters
-        make = api.preview if set(choices) <= set(shown) else api.draw
+        check_keywords("%%traj", choices, SETTINGS.values(), ["settings"])
+        of_preview = {setting.keyword for setting in settings_of(*COMMANDS["preview"])}
+        make = api.preview if choices.keys() <= {*of_preview, "settings"} else api.draw
         return make(text=cell, **choices)
     except DqpaintError as problem:
         print(problem, file=sys.stderr)
@@ -35,10 +39,13 @@ def read_options(line: str) -> dict[str, Any]:
     """The keywords that options stand for; one that is repeated has a list.
 
     Raises:
-        UsageError: a word that is no option.
+        UsageError: a word that is no option, or a quote that is not closed.
     """
     found: dict[str, Any] = {}
-    words = shlex.split(line)
+    try:
+        words = shlex.split(line)
+    except ValueError as problem:
+        raise UsageError(f"%%traj {line}: {str(problem).lower()}") from None
     while words:
         word = words.pop(0)
         if not word.startswith("--"):
@@ -53,10 +60,6 @@ def read_options(line: str) -> dict[str, Any]:
             given = [*(before if isinstance(before, list) else [before]), given]
         found[keyword] = given
     return found
-
-
-KEYWORDS = {"gain": "gains", "from": "start"}
-"""Options whose keyword in Python has another name."""
 
 
 def load_ipython_extension(shell: Any) -> None:

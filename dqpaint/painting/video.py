@@ -85,43 +85,30 @@ def count_frames(scene: Scene, rate: int) -> int:
     return max(2, round(min(max(scene.seconds, SHORTEST_VIDEO), LONGEST_VIDEO) * rate))
 
 
-def webm(
+def movie(
     scene: Scene,
     picture: Picture,
     settings: Settings,
     progress: Progress,
-    scene_arm: SceneArm | None = None,
+    scene_arm: SceneArm | None,
+    ending: str,
 ) -> bytes:
-    """A video browsers play: VP9 in WebM; arguments as those of `frames`.
+    """A movie of the growing picture, encoded.
+
+    Args:
+        scene: what is photographed.
+        picture: the finished one.
+        settings: of the painting.
+        progress: called with the part done, 0 to 1.
+        scene_arm: the arm, where it is shown.
+        ending: of the file, one of `ENCODERS`.
 
     Raises:
-        DqpaintError: This build of OpenCV cannot write it.
+        DqpaintError: this build of OpenCV, or ffmpeg, cannot write it.
     """
-    count = count_frames(scene, VIDEO_RATE)
-    shown = frames(scene, picture, settings, count, progress, scene_arm)
-    return _vp9(shown, picture.image.shape, "video.webm", "VP90")
-
-
-def mp4(
-    scene: Scene,
-    picture: Picture,
-    settings: Settings,
-    progress: Progress,
-    scene_arm: SceneArm | None = None,
-) -> bytes:
-    """A video for slides: H.264 by an `ffmpeg` on the search path, else VP9, in MP4.
-
-    Arguments are those of `frames`.
-
-    Raises:
-        DqpaintError: Neither can be written.
-    """
-    count = count_frames(scene, VIDEO_RATE)
-    shown = frames(scene, picture, settings, count, progress, scene_arm)
-    program = shutil.which("ffmpeg")
-    if program is not None:
-        return _h264(shown, picture.image.shape, program)
-    return _vp9(shown, picture.image.shape, "video.mp4", "vp09")
+    rate, encode = ENCODERS[ending]
+    shown = frames(scene, picture, settings, count_frames(scene, rate), progress, scene_arm)
+    return encode(shown, picture.image.shape)
 
 
 def _held(shown: Iterator[Frame], size: tuple[int, int]) -> Iterator[Frame]:
@@ -212,69 +199,47 @@ def _silent_stderr() -> Iterator[None]:
         os.close(kept)
 
 
-def gif(
-    scene: Scene,
-    picture: Picture,
-    settings: Settings,
-    progress: Progress,
-    scene_arm: SceneArm | None = None,
-) -> bytes:
-    """An animated GIF of 256 colours, small and looped; arguments as those of `frames`.
-
-    Raises:
-        DqpaintError: This build of OpenCV cannot write it.
-    """
-    return _animation(
-        scene,
-        picture,
-        lambda count: frames(scene, picture, settings, count, progress, scene_arm),
-        ".gif",
-        [cv2.IMWRITE_GIF_DITHER, GIF_DITHER],
-    )
-
-
-def webp(
-    scene: Scene,
-    picture: Picture,
-    settings: Settings,
-    progress: Progress,
-    scene_arm: SceneArm | None = None,
-) -> bytes:
-    """An animated WebP, small and looped, for a README; arguments as those of `frames`.
-
-    Raises:
-        DqpaintError: This build of OpenCV cannot write it.
-    """
-    quality = [cv2.IMWRITE_WEBP_QUALITY, 85]
-    return _animation(
-        scene,
-        picture,
-        lambda count: frames(scene, picture, settings, count, progress, scene_arm),
-        ".webp",
-        quality,
-    )
+def _mp4(shown: Iterator[Frame], shape: tuple[int, ...]) -> bytes:
+    """H.264 by an `ffmpeg` on the search path, which slides play; else VP9."""
+    program = shutil.which("ffmpeg")
+    if program is not None:
+        return _h264(shown, shape, program)
+    return _vp9(shown, shape, "video.mp4", "vp09")
 
 
 def _animation(
-    scene: Scene,
-    picture: Picture,
-    shown: Callable[[int], Iterator[Frame]],
-    ending: str,
-    how: list[int],
+    shown: Iterator[Frame], shape: tuple[int, ...], ending: str, how: list[int]
 ) -> bytes:
-    """A small animation that is looped; `shown` makes so many frames."""
+    """A small animation that is looped."""
     if not hasattr(cv2, "imencodeanimation"):
         raise DqpaintError(f"this build of OpenCV writes no animated {ending}; 4.12 and later do")
-    height, width = picture.image.shape[:2]
+    height, width = shape[:2]
     scale = min(1.0, WEBP_WIDTH / width)
     size = max(1, round(scale * width)), max(1, round(scale * height))
-    count = count_frames(scene, WEBP_RATE)
     animation = cv2.Animation()
     animation.frames = [
-        cv2.resize(frame[..., ::-1], size, interpolation=cv2.INTER_AREA) for frame in shown(count)
+        cv2.resize(frame[..., ::-1], size, interpolation=cv2.INTER_AREA) for frame in shown
     ]
-    animation.durations = [1000 // WEBP_RATE] * (count - 1) + [round(1000 * FINAL_TIME)]
+    still = len(animation.frames) - 1
+    animation.durations = [1000 // WEBP_RATE] * still + [round(1000 * FINAL_TIME)]
     done, data = cv2.imencodeanimation(ending, animation, how)
     if not done:
         raise DqpaintError(f"the animation could not be encoded as {ending}")
     return bytes(np.asarray(data).tobytes())
+
+
+def _gif(shown: Iterator[Frame], shape: tuple[int, ...]) -> bytes:
+    return _animation(shown, shape, ".gif", [cv2.IMWRITE_GIF_DITHER, GIF_DITHER])
+
+
+def _webp(shown: Iterator[Frame], shape: tuple[int, ...]) -> bytes:
+    return _animation(shown, shape, ".webp", [cv2.IMWRITE_WEBP_QUALITY, 85])
+
+
+ENCODERS: dict[str, tuple[int, Callable[[Iterator[Frame], tuple[int, ...]], bytes]]] = {
+    ".webm": (VIDEO_RATE, partial(_vp9, name="video.webm", tag="VP90")),
+    ".mp4": (VIDEO_RATE, _mp4),
+    ".gif": (WEBP_RATE, _gif),
+    ".webp": (WEBP_RATE, _webp),
+}
+"""Frames a second and what encodes them, by the ending of the file."""

@@ -38,7 +38,8 @@ def test_a_cell_is_what_it_would_be_elsewhere(capsys):
 
 @pytest.mark.parametrize(("line", "cell", "said"), [
     ("", "line to (0, 0, 70)\n", "E218"), ("--controler p", LINE, "controller"),
-    ("star", LINE, "%%traj"), ("--size 9", LINE, "size"),
+    ("star", LINE, "%%traj"), ("--size 9", LINE, "size"), ("--text star", LINE, "text"),
+    ("--progress 1", LINE, "progress"), ('--gain "k=5', LINE, "quotation"),
 ])  # fmt: skip
 def test_a_fault_is_told_and_is_no_picture(line, cell, said, capsys):
     assert traj(line, cell) is None

@@ -87,12 +87,11 @@ def explanations():
 
 def explanation(one):
     from dqpaint.cli.listing import value_line
-    from dqpaint.core.texts.mathematics import latex_equation, unicode_prose
+    from dqpaint.core.texts.mathematics import latex_block, unicode_prose
 
     sections = one.sections
-    lines = " \\\\\n".join(map(latex_equation, sections.equations))
     parts = [f"### {one.name}", sections.summary.rstrip(".") + "."]
-    parts += [f"```math\n\\begin{{gather*}}\n{lines}\n\\end{{gather*}}\n```"]
+    parts += [latex_block(sections.equations)]
     texts = {
         label: unicode_prose(text).replace("*", r"\*") for label, text in sections.texts.items()
     }

@@ -9,6 +9,7 @@ those letters. `^+`, `^-1`, `^*` stand above, `'` transposes, `1/2` is a half, `
 """
 
 import re
+from collections.abc import Iterable
 from typing import NamedTuple
 from unicodedata import normalize
 
@@ -62,6 +63,12 @@ def latex_equation(text: str) -> str:
     """An equation in LaTeX, without dollars."""
     tokens = list(TOKEN.finditer(text))
     return re.sub(r" +", " ", _latex(tokens, "")).strip()
+
+
+def latex_block(equations: Iterable[str]) -> str:
+    """Equations one below the other, as a block of Markdown."""
+    lines = " \\\\\n".join(map(latex_equation, equations))
+    return f"```math\n\\begin{{gather*}}\n{lines}\n\\end{{gather*}}\n```"
 
 
 def _read_name(text: str) -> Name:

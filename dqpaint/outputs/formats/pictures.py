@@ -51,34 +51,31 @@ def hdr(painting: "paint.Painting") -> bytes:
 @writer("video", ".webm")
 def video(painting: "paint.Painting", progress: Progress) -> bytes:
     """The painting as it grows: VP9 in WebM."""
-    from dqpaint.painting import video as movies
-
-    with painting.scene_arm() as staging:
-        return movies.webm(painting.scene, painting.picture, painting.settings, progress, staging)
+    return _movie(painting, progress, ".webm")
 
 
 @writer("mp4", ".mp4")
 def mp4(painting: "paint.Painting", progress: Progress) -> bytes:
     """The painting as it grows, for slides: H.264 by the system's ffmpeg, else VP9."""
-    from dqpaint.painting import video as movies
-
-    with painting.scene_arm() as staging:
-        return movies.mp4(painting.scene, painting.picture, painting.settings, progress, staging)
+    return _movie(painting, progress, ".mp4")
 
 
 @writer("gif", ".gif")
 def gif(painting: "paint.Painting", progress: Progress) -> bytes:
     """The painting as it grows, small, with 256 colours: where nothing else plays."""
-    from dqpaint.painting import video as movies
-
-    with painting.scene_arm() as staging:
-        return movies.gif(painting.scene, painting.picture, painting.settings, progress, staging)
+    return _movie(painting, progress, ".gif")
 
 
 @writer("webp", ".webp")
 def webp(painting: "paint.Painting", progress: Progress) -> bytes:
     """The painting as it grows, small, as an animation for a page."""
+    return _movie(painting, progress, ".webp")
+
+
+def _movie(painting: "paint.Painting", progress: Progress, ending: str) -> bytes:
     from dqpaint.painting import video as movies
 
-    with painting.scene_arm() as staging:
-        return movies.webp(painting.scene, painting.picture, painting.settings, progress, staging)
+    with painting.scene_arm() as arm:
+        return movies.movie(
+            painting.scene, painting.picture, painting.settings, progress, arm, ending
+        )

@@ -81,6 +81,19 @@ def test_motions_shine_with_the_integral_of_the_colours() -> None:
         np.testing.assert_allclose(energy(text), (0.25, 0.5, 0.25), atol=2e-3)
 
 
+def test_a_step_across_a_joint_has_the_mean_of_its_colours() -> None:
+    """Seven steps, each across joints of nine lines, by a fine sum over the way."""
+    lines = "line by (7, 0) mm\n" * 9
+    text = (
+        f"profile constant\nperiod 100 ms\nstroke samples 7 light red to lime to blue\n{lines}end"
+    )
+    motion = plan(parse(text, "a.traj"), IDENTITY)
+    share = (np.arange(70_000) + 0.5) / 70_000
+    fine = np.array([np.interp(share, (0, 0.5, 1), stops) for stops in np.eye(3)])
+    means = fine.reshape(3, 7, -1).mean(axis=2).T
+    np.testing.assert_allclose(motion.light[:-1], means, atol=1e-8)
+
+
 @pytest.mark.parametrize("bend", ["t", "t^2/360 deg"])
 def test_the_colour_of_a_curve_is_a_formula_of_its_parameter(bend: str) -> None:
     """Where the light is tells the parameter: on a circle, the angle, however fast it is run."""
